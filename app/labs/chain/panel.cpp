@@ -361,7 +361,8 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     if (part.mode == ChainMode::Curve && !part.chain.empty()) return curve_report_rows(part, palette, emit);
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
-        reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+        reading("tip to target", "%s",
+                si_text(static_cast<double>(shown_residual(part, joints)), "m").c_str());
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
@@ -384,7 +385,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     });
     if (part.mode != ChainMode::Reach || !part.result) return;
     reading("iterations", "%d", part.result->report.iterations);
-    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+    reading("tip to target", "%s", si_text(static_cast<double>(shown_residual(part, joints)), "m").c_str());
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <glm/common.hpp>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
@@ -43,7 +44,7 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     const float residual = glm::distance(joints[4], part().target),
                 bone = glm::distance(joints[4], joints[3]);
     ASSERT_GT(bone, 2.0f);
-    expect_says("tip to target " + metres(residual, "%.4f m"));
+    expect_says("tip to target " + si_text(static_cast<double>(residual), "m"));
     expect_says("bone in this step " + metres(bone, "%.3f m"));
     expect_says("x " + metres(joints[4].x, "%.3f m"));
     expect_says("y " + metres(joints[4].y, "%.3f m"));
@@ -56,12 +57,12 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     run("microscope.seek", {{"step", 4}});
     const std::vector<glm::vec3> later = trace.pose(4);
     expect_says("x " + metres(later[4].x, "%.3f m"));
-    expect_says("tip to target " + metres(glm::distance(later[4], part().target), "%.4f m"));
+    expect_says("tip to target " + si_text(static_cast<double>(glm::distance(later[4], part().target)), "m"));
 
     // The last step is the end of the solve, whose report is shown.
     run("microscope.seek", {{"step", trace.frames()}});
     expect_says("Reached");
-    expect_says("tip to target " + metres(part().result->report.residual, "%.4f m"));
+    expect_says("tip to target " + si_text(static_cast<double>(part().result->report.residual), "m"));
     expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
 }
 
