@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -209,17 +210,11 @@ void several_joints(const ShownChain& shown, Emit& emit) {
 
 void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Emit& emit) {
     static constexpr const char* axes[] = {"X", "Y", "Z", "other"};
-    int axis = 3;
-    for (int i = 0; i < 3; ++i) {
-        glm::vec3 unit(0.0f);
-        unit[i] = 1.0f;
-        if (limit.axis == unit) axis = i;
-    }
-    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
-        glm::vec3 unit(0.0f);
-        unit[axis] = 1.0f;
-        emit("chain.limit", of_joints(joints, {{"axis", unit}}));
-    }
+    const glm::mat3 units(1.0f);
+    int axis = 0;
+    while (axis < 3 && limit.axis != units[axis]) ++axis;
+    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3)
+        emit("chain.limit", of_joints(joints, {{"axis", units[axis]}}));
     explain(
         "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it alone.");
     note("A straight chain has all angles 0.");

@@ -62,15 +62,11 @@ class Watch final : public ik::Observer {
     }
     /// A chain that only had to be stretched towards its target has moved without an iteration.
     void finish() {
-        if (racer_.residuals.size() == 1 && racer_.joints != joints_at_start())
+        if (racer_.residuals.size() == 1 && !std::ranges::equal(racer_.joints, racer_.poses.at(0)))
             add(racer_.joints, racer_.report.residual);
     }
 
   private:
-    std::vector<glm::vec3> joints_at_start() const {
-        const std::span<const glm::vec3> start = racer_.poses.at(0);
-        return {start.begin(), start.end()};
-    }
     void add(std::span<const glm::vec3> joints, float residual) {
         racer_.residuals.push_back(residual);
         racer_.poses.add(joints);
