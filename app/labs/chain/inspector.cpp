@@ -141,7 +141,7 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     const Joints joints = shown_joints(shown);
     report_rows(shown, joints, colours, emit);
     selection_rows(shown, joints, emit);
-    if (reaches) limit_rows(shown.part, emit);
+    if (reaches) limit_rows(shown.part, joints, emit);
     chain_rows(shown, joints);
     // No reference into the storage: the rows below add to it, which moves its elements.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
@@ -217,7 +217,17 @@ void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Em
         emit("chain.limit", of_joints(joints, {{"axis", units[axis]}}));
     explain(
         "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it alone.");
-    note("A straight chain has all angles 0.");
+}
+
+/// "Joint 2 is at 43°; straight is 0°."
+std::string angle_text(const ChainPart& part, const Joints& joints, const ik::Limit& limit,
+                       std::size_t joint) {
+    const glm::vec3 rest = part.chain.default_direction();
+    const auto turns = rotations_at(joints, part.reach.state.rotations, rest);
+    const glm::quat parent = joint == 0 ? glm::quat(1, 0, 0, 0) : turns[joint - 1];
+    const float up = ik::measure(limit, rest, glm::conjugate(parent) * turns[joint]).up;
+    return "Joint " + std::to_string(joint) + " is at " +
+           fixed_text(glm::degrees(static_cast<double>(up)), 0) + "\xc2\xb0; straight is 0\xc2\xb0.";
 }
 
 bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joints) {
@@ -253,7 +263,7 @@ void length_field(const char* name, const ChainPart& part, Emit& emit) {
                          : "The length of the bone that leads to this joint.");
 }
 
-void limit_rows(const ChainPart& part, Emit& emit) {
+void limit_rows(const ChainPart& part, const Joints& pose, Emit& emit) {
     // No bone starts at the tail.
     std::vector<std::size_t> joints = part.selection.all();
     if (!joints.empty() && joints.back() + 1 == part.chain.size()) joints.pop_back();
@@ -279,7 +289,10 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     for (const Field& field : ik::limit_fields(limit.kind))
         if (field.name != std::string_view("kind") && field.name != std::string_view("axis"))
             rows.row(field.name);
-    if (limit.kind != ik::JointKind::Free) axis_row(limit, joints, emit);
+    if (limit.kind == ik::JointKind::Free) return;
+    axis_row(limit, joints, emit);
+    note(limit.kind == ik::JointKind::Hinge ? angle_text(part, pose, limit, joint)
+                                            : "A straight chain has all angles 0.");
 }
 
 }  // namespace tendril::app

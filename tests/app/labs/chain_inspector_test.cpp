@@ -94,6 +94,8 @@ TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     run("chain.target", {{"to", {0.5, 0, 0}}});
     EXPECT_TRUE(state().at("verdict").get<std::string>().starts_with("Limited: 0.")) << state().at("verdict");
     EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
+    run("chain.select", {{"index", 1}});
+    expect_says("Joint 1 is at 90\xc2\xb0; straight is 0");
 }
 
 TEST_F(ChainInspector, ExplainsAStalledSolve) {
