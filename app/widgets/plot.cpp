@@ -144,12 +144,8 @@ class Plot {
         list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), imgui_u32(nearest->colour));
         // Omit a curve's name if it equals the axis title.
         const std::string title = nearest->name == axes_.y ? std::string() : nearest->name + "\n";
-        const auto y_text = [&](const char* name, float y) {
-            return std::string("\n") + name + ' ' + short_text(static_cast<double>(y), axes_.y_unit);
-        };
-        tooltip(title + axes_.x + ' ' + short_text(static_cast<double>(point.x), axes_.x_unit) +
-                y_text(axes_.y, point.y) +
-                (*axes_.level_name ? y_text(axes_.level_name, axes_.level) + ", dashed" : ""));
+        tooltip(title + axes_.x + ' ' + short_text(static_cast<double>(point.x), axes_.x_unit) + '\n' +
+                axes_.y + ' ' + short_text(static_cast<double>(point.y), axes_.y_unit) + axes_.note);
     }
 
     float x(float value) const {

@@ -56,14 +56,13 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
         tooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
                        : "Click selects this joint. bone: the length of the bone that leads to it; "
                          "error: how far that is from what it should be");
-    for (int axis = 0; axis < 3; ++axis) {
+    const auto column = [](const std::string& text) {
         ImGui::TableNextColumn();
-        text_flush_right(fixed_text(static_cast<double>(segment.position[axis]), 2));
-    }
-    ImGui::TableNextColumn();
-    text_flush_right(fixed_text(static_cast<double>(segment.length), 3));
-    ImGui::TableNextColumn();
-    text_flush_right(error_text(static_cast<double>(segment.error)));
+        text_flush_right(text);
+    };
+    for (int axis = 0; axis < 3; ++axis) column(fixed_text(static_cast<double>(segment.position[axis]), 2));
+    column(fixed_text(static_cast<double>(segment.length), 3));
+    column(error_text(static_cast<double>(segment.error)));
 }
 
 /// `fixed`: columns as wide as their numbers, scrolled sideways, for panels that are too narrow.
@@ -84,11 +83,10 @@ void header_row(bool fixed) {
     ImGui::TableNextRow();
     for (const Column& column : columns) {
         ImGui::TableNextColumn();
-        if (column.name[0] == '#') {
+        if (column.name[0] == '#')
             ImGui::TextDisabled("%s", column.name);
-        } else {
+        else
             text_flush_right(column.name, true);
-        }
     }
 }
 

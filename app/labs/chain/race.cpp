@@ -166,25 +166,23 @@ std::string end_text(const Racer& racer) {
 }
 
 std::string race_csv(const Race& race) {
+    const auto metres = [](float value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+        return std::string(text);
+    };
     std::string csv = "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m\n";
     for (const Racer& racer : race.racers) {
-        const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
-        for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
-            char line[160];
-            std::snprintf(line, sizeof line, "\"%s\",%zu,%.9g,%.3f,", solver_title(racer.method), i,
-                          static_cast<double>(racer.residuals[i]),
-                          racer.microseconds * static_cast<double>(i) / last);
-            csv += line;
-            if (i + 1 < racer.residuals.size()) {
-                csv += ",,\n";
-                continue;
-            }
-            char restored[32] = "";
-            if (racer.restored) {
-                std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
-            }
-            csv += std::string(ik::name(racer.report.status)) + ",\"" + ran_text(racer.method, racer.report) +
-                   "\"," + restored + "\n";
+        const int last = racer.iterations();
+        for (int i = 0; i <= last; ++i) {
+            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
+                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' +
+                   fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
+            csv += i < last ? ",,"
+                            : std::string(ik::name(racer.report.status)) + ",\"" +
+                                  ran_text(racer.method, racer.report) + "\"," +
+                                  (racer.restored ? metres(racer.report.residual) : "");
+            csv += '\n';
         }
     }
     return csv;

@@ -29,7 +29,7 @@ PlotAxes residual_axes(float tolerance, int iteration) {
             .y_unit = "m",
             .min_y = std::max(1e-7f, 1e-2f * tolerance),
             .level = tolerance,
-            .level_name = "tolerance",
+            .note = "\ntolerance " + short_text(static_cast<double>(tolerance), "m") + ", dashed",
             .at_x = static_cast<float>(iteration),
             .whole_x = true};
 }
@@ -46,10 +46,17 @@ constexpr const char* against_time = "against time";
 
 void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);
-    bool on = shown.part.study.racers[index];
+    const bool accepted = takes(method, shown.part.chain);
+    bool on = accepted && shown.part.study.racers[index];
     colour_mark(solver_colour(palette, method));
+    ImGui::BeginDisabled(!accepted);
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
+    ImGui::EndDisabled();
+    if (!accepted) {
+        explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
+        return small_right(needs_two_bones);
+    }
     const auto& racers = shown.race->racers;
     const auto racer = std::ranges::find(racers, method, &Racer::method);
     const bool raced = racer != racers.end();
@@ -65,17 +72,6 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
 }
 
-/// A solver that does not accept this chain.
-void missing_racer_row(ik::Method method, const Palette& palette) {
-    colour_mark(solver_colour(palette, method));
-    bool off = false;
-    ImGui::BeginDisabled();
-    ImGui::Checkbox(solver_title(method), &off);
-    ImGui::EndDisabled();
-    explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
-    small_right(needs_two_bones);
-}
-
 void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
     const Race& race = *shown.race;
     std::vector<Curve> curves;
@@ -83,9 +79,8 @@ void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
         Curve curve{solver_title(racer.method), solver_colour(palette, racer.method),
                     by_iteration(racer.residuals)};
         const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
-        if (time) {
+        if (time)
             for (glm::vec2& p : curve.points) p.x *= 1e-6f * static_cast<float>(racer.microseconds) / last;
-        }
         curves.push_back(std::move(curve));
     }
     PlotAxes axes = residual_axes(race.tolerance, time ? -1 : static_cast<int>(shown.step()));
@@ -168,13 +163,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     const ImGuiID kept_as = ImGui::GetID(against_time);
     bool time = kept.GetBool(kept_as);
     small_right(time ? "time" : "iterations");
-    for (const ik::Method method : ik::all_methods) {
-        if (takes(method, shown.part.chain)) {
-            racer_row(shown, method, time, palette, emit);
-        } else {
-            missing_racer_row(method, palette);
-        }
-    }
+    for (const ik::Method method : ik::all_methods) racer_row(shown, method, time, palette, emit);
     race_plot(shown, time, palette);
     if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
     if (ImGui::IsItemHovered()) tooltip("Measured on this machine, the fastest of several runs");

@@ -230,18 +230,14 @@ TEST_P(LabCard, AHiddenCardReopensFresh) {
 
 TEST(ChainCard, GivesWayToARaceAndAsksForThePoleInItsFlip) {
     CardOnScene scene({"chain", 1});
-    ASSERT_TRUE(scene.has_ring());
-    for (const std::string study : {"race", "microscope"}) {
-        scene.run(study + ".open", Json::object());
-        scene.wait(2);
-        EXPECT_FALSE(scene.has_ring()) << study;
-        scene.run(study + ".close", Json::object());
-        scene.wait(2);
-        EXPECT_TRUE(scene.has_ring()) << study;
-    }
     scene.run("chain.pole", {{"off", true}});
     scene.play(scene.card().steps[2]);
     EXPECT_FALSE(scene.done()[2]);
+    for (const char* const study : {"race.open", "microscope.open"}) {
+        scene.run(study, Json::object());
+        scene.wait(2);
+        EXPECT_FALSE(scene.has_ring()) << study;
+    }
 }
 
 /// The button that hides the card is somewhere near the right edge, above the steps.

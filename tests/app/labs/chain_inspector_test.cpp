@@ -1,5 +1,4 @@
 // The inspector's numbers match the picture: under the microscope, they belong to the step shown.
-#include <cstdio>
 #include <glm/common.hpp>
 
 #include "app/document/units.hpp"
@@ -17,11 +16,7 @@ class ChainInspector : public ChainTest {
     std::string text() { return reader_.inspector(lab(), workspace); }
     void expect_says(const std::string& words) { EXPECT_TRUE(test::has(text(), words)); }
     void expect_silent_about(const std::string& words) { EXPECT_FALSE(test::has(text(), words)); }
-    static std::string metres(float value, const char* format) {
-        char text[32];
-        std::snprintf(text, sizeof text, format, static_cast<double>(value));
-        return text;
-    }
+    static std::string metres(float value) { return fixed_text(static_cast<double>(value), 3) + " m"; }
     void plain_fabrik(int bones, const Json& target) {
         reach_with(bones);
         run("chain.solver", {{"name", "fabrik_plain"}});
@@ -45,9 +40,9 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
                 bone = glm::distance(joints[4], joints[3]);
     ASSERT_GT(bone, 2.0f);
     expect_says("tip to target " + si_text(static_cast<double>(residual), "m"));
-    expect_says("bone in this step " + metres(bone, "%.3f m"));
-    expect_says("x " + metres(joints[4].x, "%.3f m"));
-    expect_says("y " + metres(joints[4].y, "%.3f m"));
+    expect_says("bone in this step " + metres(bone));
+    expect_says("x " + metres(joints[4].x));
+    expect_says("y " + metres(joints[4].y));
     expect_silent_about("Reached");
     EXPECT_EQ(state()["microscope"]["residual"], number(residual));
     EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
@@ -56,14 +51,14 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     // On the way, the joints take poses at which no solve ended.
     run("microscope.seek", {{"step", 4}});
     const std::vector<glm::vec3> later = trace.pose(4);
-    expect_says("x " + metres(later[4].x, "%.3f m"));
+    expect_says("x " + metres(later[4].x));
     expect_says("tip to target " + si_text(static_cast<double>(glm::distance(later[4], part().target)), "m"));
 
     // The last step is the end of the solve, whose report is shown.
     run("microscope.seek", {{"step", trace.frames()}});
     expect_says("Reached");
     expect_says("tip to target " + si_text(static_cast<double>(part().result->report.residual), "m"));
-    expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
+    expect_says("x " + metres(part().chain.position(4).x));
 }
 
 TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
@@ -131,8 +126,7 @@ TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
         run("microscope.seek", {{"step", step}});
         const std::string said = text();
         for (const glm::vec3& joint : trace->pose(step)) {
-            const std::string y = metres(joint.y, "%.2f");
-            EXPECT_TRUE(test::has(said, y == "-0.00" ? "0.00" : y)) << "step " << step;
+            EXPECT_TRUE(test::has(said, fixed_text(static_cast<double>(joint.y), 2))) << "step " << step;
         }
     }
 }

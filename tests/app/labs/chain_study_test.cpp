@@ -123,10 +123,8 @@ TEST_F(ChainStudy, EveryStepHasItsSentence) {
         run("chain.solver", {{"name", ik::name(method)}});
         run("microscope.open", {{"start", "straight"}});
         run("chain.target", {{"to", {0.7, 0, 0}}});
-        for (std::size_t i = 0; i <= trace().frames(); ++i) {
-            EXPECT_FALSE(describe_frame(trace(), i).empty());
-            EXPECT_LT(describe_frame(trace(), i).size(), 90u) << "two lines: " << describe_frame(trace(), i);
-        }
+        for (std::size_t i = 0; i <= trace().frames(); ++i)
+            EXPECT_LT(describe_frame(trace(), i).size() - 1, 89u) << "one or two lines, not none";
         run("microscope.close");
     }
 }
