@@ -146,7 +146,7 @@ void add_card_commands(CommandTable& table) {
                               .type = ArgumentType::Integer,
                               .required = false,
                               .help = "card number, from 1; default: the last one shown"}},
-               .help = "Shows one of this lab's cards of things to try, or puts it away for good",
+               .help = "Shows a card of five things to try, or another of this lab, or puts it away for good",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& given) {
                    if (cards_source(w.lab).empty()) throw Refused("this lab has no card");

@@ -237,6 +237,8 @@ class Lab {
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}
     virtual void inspector(const Workspace&, Emit&) const {}
+    /// Whether the inspector shows an analysis, which needs the card's room.
+    virtual bool analyses(const Workspace&) const { return false; }
     virtual std::vector<LegendRow> legend(const Workspace&) const { return {}; }
 
     // for the shell's tables

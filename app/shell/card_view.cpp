@@ -61,9 +61,10 @@ float height(const Card& card, const Measure& m, Fold fold, std::size_t current)
     return sum + m.footer;
 }
 
-/// The incidents of a trace need the room, and its target is not to be dragged.
+/// A race, the microscope and the incidents of a trace need the room.
 bool gives_way(const ShellFrame& frame) {
-    return std::ranges::any_of(frame.workspace.rewind.incidents(),
+    return frame.lab.analyses(frame.workspace) ||
+           std::ranges::any_of(frame.workspace.rewind.incidents(),
                                [](const Incident& each) { return !each.title.empty(); });
 }
 

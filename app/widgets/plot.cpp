@@ -145,7 +145,7 @@ class Plot {
         // Omit a curve's name if it equals the axis title.
         const std::string title = nearest->name == axes_.y ? std::string() : nearest->name + "\n";
         tooltip(title + axes_.x + ' ' + short_text(static_cast<double>(point.x), axes_.x_unit) + '\n' +
-                axes_.y + ' ' + short_text(static_cast<double>(point.y), axes_.y_unit));
+                axes_.y + ' ' + short_text(static_cast<double>(point.y), axes_.y_unit) + axes_.note);
     }
 
     float x(float value) const {

@@ -31,6 +31,7 @@ struct PlotAxes {
     float low_y = 0.0f, high_y = 0.0f;  ///< linear y axis: a range it includes, if low < high
     bool fixed_y = false;               ///< shows exactly that range, with marks where curves leave it
     float level = 0.0f;                 ///< draws a dashed line at this y, if positive
+    std::string note{};                 ///< ends the tooltip of the nearest point
     float at_x = -1.0f;                 ///< draws a line at this x, if not negative
     /// Window pixels of the x axis's ends, to align it with another widget; used if left < right. Otherwise
     /// the axis fills the available width.

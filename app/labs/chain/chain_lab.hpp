@@ -85,6 +85,7 @@ class ChainLab final : public Lab {
     TakenText takes_text(const std::string& text) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
+    bool analyses(const Workspace& workspace) const override;
     float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
     std::vector<MouseHelp> mouse_help() const override;

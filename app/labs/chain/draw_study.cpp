@@ -21,12 +21,11 @@ class MicroscopeDrawing {
         ghosts(trace, step);
         const auto moves = trace.frame(step);
         if (moves.empty()) return;
-        const std::vector<glm::vec3> pose = trace.pose(step);
         const bool alone = moves.size() == 1;
         for (const ik::Step& move : moves) moved(move, alone);
         if (!alone || moves.front().neighbour == ik::no_joint) return;
         const ik::Step& move = moves.front();
-        const glm::vec3 centre = pose[move.neighbour];
+        const glm::vec3 centre = trace.pose(step)[move.neighbour];
         slide(centre, move);
         sphere(centre, glm::distance(centre, move.to));
         label(centre, std::to_string(move.neighbour));
@@ -44,24 +43,19 @@ class MicroscopeDrawing {
                                 .rank = 3});
     }
 
-    void polyline(const std::vector<glm::vec3>& joints, glm::vec4 colour, float width) {
-        for (std::size_t i = 1; i < joints.size(); ++i) {
+    void pose(const std::vector<glm::vec3>& joints, glm::vec4 colour, float width) {
+        for (std::size_t i = 1; i < joints.size(); ++i)
             list_.line(joints[i - 1], joints[i], px(width), colour);
-        }
+        for (const glm::vec3& joint : joints) list_.sphere(joint, px(width + 1.0f), Unit::Pixels, colour);
     }
 
     /// The start, and the ends of the last few iterations; older ones are fainter.
     void ghosts(const Trace& trace, std::size_t step) {
-        polyline(trace.start, ghost(0.8f), 2.0f);
-        for (const glm::vec3& joint : trace.start) list_.sphere(joint, px(3.0f), Unit::Pixels, ghost(0.8f));
+        pose(trace.start, ghost(0.8f), 2.0f);
         const int now = trace.iteration(step);
         for (int i = std::max(1, now - max_ghosts); i < now; ++i) {
             const float age = static_cast<float>(now - i) / static_cast<float>(max_ghosts + 1);
-            const std::vector<glm::vec3> pose = trace.pose(trace.end_of_iteration(i));
-            polyline(pose, ghost(0.75f * (1.0f - age)), 1.5f);
-            for (const glm::vec3& joint : pose) {
-                list_.sphere(joint, px(2.5f), Unit::Pixels, ghost(0.75f * (1.0f - age)));
-            }
+            pose(trace.pose(trace.end_of_iteration(i)), ghost(0.75f * (1.0f - age)), 1.5f);
         }
     }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -55,14 +56,13 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
         tooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
                        : "Click selects this joint. bone: the length of the bone that leads to it; "
                          "error: how far that is from what it should be");
-    for (int axis = 0; axis < 3; ++axis) {
+    const auto column = [](const std::string& text) {
         ImGui::TableNextColumn();
-        text_flush_right(fixed_text(static_cast<double>(segment.position[axis]), 2));
-    }
-    ImGui::TableNextColumn();
-    text_flush_right(fixed_text(static_cast<double>(segment.length), 3));
-    ImGui::TableNextColumn();
-    text_flush_right(error_text(static_cast<double>(segment.error)));
+        text_flush_right(text);
+    };
+    for (int axis = 0; axis < 3; ++axis) column(fixed_text(static_cast<double>(segment.position[axis]), 2));
+    column(fixed_text(static_cast<double>(segment.length), 3));
+    column(error_text(static_cast<double>(segment.error)));
 }
 
 /// `fixed`: columns as wide as their numbers, scrolled sideways, for panels that are too narrow.
@@ -83,11 +83,10 @@ void header_row(bool fixed) {
     ImGui::TableNextRow();
     for (const Column& column : columns) {
         ImGui::TableNextColumn();
-        if (column.name[0] == '#') {
+        if (column.name[0] == '#')
             ImGui::TextDisabled("%s", column.name);
-        } else {
+        else
             text_flush_right(column.name, true);
-        }
     }
 }
 
@@ -140,7 +139,7 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     const Joints joints = shown_joints(shown);
     report_rows(shown, joints, colours, emit);
     selection_rows(shown, joints, emit);
-    if (reaches) limit_rows(shown.part, emit);
+    if (reaches) limit_rows(shown.part, joints, emit);
     chain_rows(shown, joints);
     // No reference into the storage: the rows below add to it, which moves its elements.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
@@ -209,20 +208,24 @@ void several_joints(const ShownChain& shown, Emit& emit) {
 
 void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Emit& emit) {
     static constexpr const char* axes[] = {"X", "Y", "Z", "other"};
-    int axis = 3;
-    for (int i = 0; i < 3; ++i) {
-        glm::vec3 unit(0.0f);
-        unit[i] = 1.0f;
-        if (limit.axis == unit) axis = i;
-    }
-    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
-        glm::vec3 unit(0.0f);
-        unit[axis] = 1.0f;
-        emit("chain.limit", of_joints(joints, {{"axis", unit}}));
-    }
+    const glm::mat3 units(1.0f);
+    int axis = 0;
+    while (axis < 3 && limit.axis != units[axis]) ++axis;
+    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3)
+        emit("chain.limit", of_joints(joints, {{"axis", units[axis]}}));
     explain(
         "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it alone.");
-    note("A straight chain has all angles 0.");
+}
+
+/// "Joint 2 is at 43°; straight is 0°."
+std::string angle_text(const ChainPart& part, const Joints& joints, const ik::Limit& limit,
+                       std::size_t joint) {
+    const glm::vec3 rest = part.chain.default_direction();
+    const auto turns = rotations_at(joints, part.reach.state.rotations, rest);
+    const glm::quat parent = joint == 0 ? glm::quat(1, 0, 0, 0) : turns[joint - 1];
+    const float up = ik::measure(limit, rest, glm::conjugate(parent) * turns[joint]).up;
+    return "Joint " + std::to_string(joint) + " is at " +
+           fixed_text(glm::degrees(static_cast<double>(up)), 0) + "\xc2\xb0; straight is 0\xc2\xb0.";
 }
 
 bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joints) {
@@ -258,7 +261,7 @@ void length_field(const char* name, const ChainPart& part, Emit& emit) {
                          : "The length of the bone that leads to this joint.");
 }
 
-void limit_rows(const ChainPart& part, Emit& emit) {
+void limit_rows(const ChainPart& part, const Joints& pose, Emit& emit) {
     // No bone starts at the tail.
     std::vector<std::size_t> joints = part.selection.all();
     if (!joints.empty() && joints.back() + 1 == part.chain.size()) joints.pop_back();
@@ -284,7 +287,10 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     for (const Field& field : ik::limit_fields(limit.kind))
         if (field.name != std::string_view("kind") && field.name != std::string_view("axis"))
             rows.row(field.name);
-    if (limit.kind != ik::JointKind::Free) axis_row(limit, joints, emit);
+    if (limit.kind == ik::JointKind::Free) return;
+    axis_row(limit, joints, emit);
+    note(limit.kind == ik::JointKind::Hinge ? angle_text(part, pose, limit, joint)
+                                            : "A straight chain has all angles 0.");
 }
 
 }  // namespace tendril::app

@@ -203,6 +203,10 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Export", false, [&](MoreRows&) { export_rows(emit); });
 }
 
+bool ChainLab::analyses(const Workspace& workspace) const {
+    return chain_part(workspace).study.open();
+}
+
 float ChainLab::timeline_height(const Workspace& workspace) const {
     const bool magnified = chain_part(workspace).study.kind == Study::Kind::Microscope;
     return magnified ? strip_height : Lab::timeline_height(workspace);
@@ -357,7 +361,8 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     if (part.mode == ChainMode::Curve && !part.chain.empty()) return curve_report_rows(part, palette, emit);
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
-        reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+        reading("tip to target", "%s",
+                si_text(static_cast<double>(shown_residual(part, joints)), "m").c_str());
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
@@ -380,39 +385,47 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     });
     if (part.mode != ChainMode::Reach || !part.result) return;
     reading("iterations", "%d", part.result->report.iterations);
-    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+    reading("tip to target", "%s", si_text(static_cast<double>(shown_residual(part, joints)), "m").c_str());
 }
 
 namespace {
 
-/// Why the method ignores an option, for its row's tooltip; empty if it does not.
-std::string why_unused(const ReachSettings& reach, const Field& option) {
-    const bool limited = is_limited(reach);
+/// Why the solver and its rivals in a race ignore an option, for its row's tooltip; empty if one uses it.
+std::string why_unused(const ChainPart& part, const Field& option) {
+    const ReachSettings& reach = part.reach;
+    const bool limited = is_limited(reach), racing = part.study.kind == Study::Kind::Race;
     const std::string_view name = option.name;
     const bool turns = name == "pole_turn" || name == "twist";
     if (reach.plane && turns) return "A chain in a plane does not use this.";
-    if (ik::honours(reach.method, option, limited)) return {};
+    const auto uses = [&](ik::Method method) {
+        const bool runs =
+            method == reach.method ||
+            (racing && part.study.racers[static_cast<std::size_t>(method)] && takes(method, part.chain));
+        return runs && ik::honours(method, option, limited);
+    };
+    if (std::ranges::any_of(ik::all_methods, uses)) return {};
     const bool otherwise = ik::honours(reach.method, option, !limited);
     const char* const when = !otherwise ? "" : limited ? " within limits" : " without joint limits";
     return std::string(solver_title(reach.method)) + " does not use this" + when + ".";
 }
 
 /// A row of the solver's settings, greyed where the method ignores it.
-void solver_row(const ReachSettings& reach, const Field& field, MoreRows& more, Emit& emit,
+void solver_row(const ChainPart& part, const Field& field, MoreRows& more, Emit& emit,
                 std::optional<double> otherwise = {}) {
-    FieldRows(reach, "chain.solver", emit)
+    FieldRows(part.reach, "chain.solver", emit)
         .under(more)
-        .row(field.name, {.otherwise = otherwise, .why_not = why_unused(reach, field)});
+        .row(field.name, {.otherwise = otherwise, .why_not = why_unused(part, field)});
 }
 
-void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
+void option_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    const ReachSettings& reach = part.reach;
     for (const Field& field : fields<ReachSettings>()) {
         const std::string_view name = field.name;
         if (name == "solver" || name.starts_with("pole")) continue;  // in a row of its own; below its switch
         std::optional<double> otherwise;
-        if (name == "tolerance") otherwise = reach_tolerance(reach, length);
+        if (name == "tolerance") otherwise = reach_tolerance(reach, part.chain.reach());
         if (name == "restarts") otherwise = default_restarts;
-        solver_row(reach, field, more, emit, otherwise);
+        solver_row(part, field, more, emit, otherwise);
     }
     more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
         if (row_button("Default tolerance", 1, reach.options.tolerance.has_value(),
@@ -441,7 +454,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");
     });
-    solver_row(part.reach, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
+    solver_row(part, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
 }
 
 }  // namespace
@@ -460,7 +473,7 @@ void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         (std::string(solver_help(part.reach.method)) + " Race compares the solvers on this chain.").c_str());
     if (!takes(part.reach.method, part.chain)) note(why_not_taken(part.reach.method, part.chain) + ".");
     pole_rows(part, more, emit);
-    option_rows(part.reach, part.chain.reach(), more, emit);
+    option_rows(part, more, emit);
 }
 
 }  // namespace tendril::app

@@ -34,8 +34,8 @@ void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emi
 void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);
 /// The bone length of the selected joints.
 void length_field(const char* name, const ChainPart& part, Emit& emit);
-/// Inspector: the limit of the selected joints.
-void limit_rows(const ChainPart& part, Emit& emit);
+/// Inspector: the limit of the selected joints; `pose`: the joints as shown.
+void limit_rows(const ChainPart& part, const std::vector<glm::vec3>& pose, Emit& emit);
 /// Inspector: the microscope's step.
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 /// Inspector: the solvers of the race and their results.

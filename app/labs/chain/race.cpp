@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <string_view>
 #include <tendril/ik/observer.hpp>
 #include <tendril/ik/solver.hpp>
 
@@ -61,15 +62,11 @@ class Watch final : public ik::Observer {
     }
     /// A chain that only had to be stretched towards its target has moved without an iteration.
     void finish() {
-        if (racer_.residuals.size() == 1 && racer_.joints != joints_at_start())
+        if (racer_.residuals.size() == 1 && !std::ranges::equal(racer_.joints, racer_.poses.at(0)))
             add(racer_.joints, racer_.report.residual);
     }
 
   private:
-    std::vector<glm::vec3> joints_at_start() const {
-        const std::span<const glm::vec3> start = racer_.poses.at(0);
-        return {start.begin(), start.end()};
-    }
     void add(std::span<const glm::vec3> joints, float residual) {
         racer_.residuals.push_back(residual);
         racer_.poses.add(joints);
@@ -157,35 +154,35 @@ std::string error_text(const Racer& racer, const RacerAt& at) {
 }
 
 std::string end_text(const Racer& racer) {
-    return capitalised(outcome_name(racer.report.status)) + ", " +
-           si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
-}
-
-std::string restored_text(const Racer& racer) {
-    if (!racer.restored) return {};
-    return "best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+    std::string text = capitalised(outcome_name(racer.report.status)) + ", " +
+                       si_text(static_cast<double>(racer.residuals.back()), "m");
+    const std::string ran = ran_text(racer.method, racer.report);
+    const std::size_t more =
+        ran.find_first_not_of(" +,", std::string_view(solver_title(racer.method)).size());
+    if (racer.restored)
+        text += "; best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+    if (more != ran.npos) return text + "; " + ran.substr(more);
+    return racer.restored ? text : text + " from the target";
 }
 
 std::string race_csv(const Race& race) {
-    std::string csv = "solver,iteration,residual,microseconds,status,ran,restored\n";
+    const auto metres = [](float value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+        return std::string(text);
+    };
+    std::string csv = "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m\n";
     for (const Racer& racer : race.racers) {
-        const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
-        for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
-            char line[160];
-            std::snprintf(line, sizeof line, "\"%s\",%zu,%.9g,%.3f,", solver_title(racer.method), i,
-                          static_cast<double>(racer.residuals[i]),
-                          racer.microseconds * static_cast<double>(i) / last);
-            csv += line;
-            if (i + 1 < racer.residuals.size()) {
-                csv += ",,\n";
-                continue;
-            }
-            char restored[32] = "";
-            if (racer.restored) {
-                std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
-            }
-            csv += std::string(ik::name(racer.report.status)) + ",\"" + ran_text(racer.method, racer.report) +
-                   "\"," + restored + "\n";
+        const int last = racer.iterations();
+        for (int i = 0; i <= last; ++i) {
+            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
+                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' +
+                   fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
+            csv += i < last ? ",,"
+                            : std::string(ik::name(racer.report.status)) + ",\"" +
+                                  ran_text(racer.method, racer.report) + "\"," +
+                                  (racer.restored ? metres(racer.report.residual) : "");
+            csv += '\n';
         }
     }
     return csv;

@@ -87,13 +87,12 @@ std::string outcome_text(const Racer& racer, const RacerAt& at);
 std::string error_reading(const RacerAt& at);
 /// "48.5 mm from the target"; with its status once it has finished: "Stalled, 310 mm from the target".
 std::string error_text(const Racer& racer, const RacerAt& at);
-/// The end of a racer: "Stalled, 310 mm from the target". restored_text: "best pose restored: 230 mm", or
-/// empty.
+/// The end of a racer: "Stalled, 310 mm from the target", or after it what ran besides the solver in the row
+/// above: "Out of reach, 310 mm; solved in closed form".
 std::string end_text(const Racer& racer);
-std::string restored_text(const Racer& racer);
 
-/// One row for each iteration of each solver: solver, iteration, residual, microseconds; the last row of a
-/// solver adds status, ran (see ran_text) and restored: the residual of the best pose if that was restored.
+/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, microseconds; the last row
+/// of a solver adds status, ran (see ran_text) and restored_m: of the best pose if that was restored.
 std::string race_csv(const Race& race);
 
 }  // namespace tendril::app

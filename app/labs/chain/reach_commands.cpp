@@ -45,7 +45,8 @@ std::span<const FieldText> field_texts<ReachSettings>() {
          .more = true},
         {.name = "every_iteration",
          .label = "Every iteration",
-         .help = "Runs all iterations, even once the tip is on the target: to compare how solvers converge.",
+         .help = "Runs all iterations, even once the tip is on the target: to compare how solvers converge. "
+                 "Out of reach, a chain without limits is stretched at once.",
          .more = true},
         {.name = "snap_back",
          .label = "rest blend",

@@ -286,12 +286,9 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::BackwardReaching:
             return pull(trace, frame, first);
         case ik::Phase::Accelerate:
-            return "The chain is straightened or bent until it spans the distance, then turned onto "
-                   "the target (" +
-                   joints + ").";
+            return "Straightened or bent to the distance, then turned onto the target (" + joints + ").";
         case ik::Phase::Rotate:
-            return "Everything beyond turns" + about + ", so that the tip points at the target (" + joints +
-                   ").";
+            return "Turned" + about + ", so that the tip points at the target (" + joints + ").";
         case ik::Phase::Gradient:
             return "All joints turn a little, along the gradient that the Jacobian gives (" + joints + ").";
         case ik::Phase::Pole:

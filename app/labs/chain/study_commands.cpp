@@ -52,7 +52,10 @@ void close(ChainPart& part, const Arguments&) {
 }
 
 /// Shows a step of the solve or an iteration of the race, and pauses. Throws Refused if it does not exist.
-void seek(ChainPart& part, const Arguments& given, const char* name, ChainRuntime& runtime) {
+template <void (*check)(const ChainPart&)>
+void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check(part);
+    const char* const name = given.has("step") ? "step" : "iteration";
     const std::size_t last = runtime.studied(part).last();
     const auto to = static_cast<std::size_t>(given.integer(name));
     if (to > last)
@@ -60,16 +63,6 @@ void seek(ChainPart& part, const Arguments& given, const char* name, ChainRuntim
                       std::to_string(to));
     part.study.go_to(to, last);
     part.study.pace = 0.0f;
-}
-
-void seek_step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_microscope(part);
-    seek(part, given, "step", runtime);
-}
-
-void show_iteration(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_race(part);
-    seek(part, given, "iteration", runtime);
 }
 
 /// The end of the iteration `by` iterations away.
@@ -165,7 +158,7 @@ void add_microscope_commands(CommandTable& table) {
                               .help = "how many steps are shown",
                               .low = 0,
                               .high = max_trace_steps}},
-                            "Goes to a step of the solve", seek_step, Effect::Look));
+                            "Goes to a step of the solve", seek<check_microscope>, Effect::Look));
     table.add(chain_command("study.step", "Step through microscope or race", step_arguments(),
                             "Steps forward or back: through the solve under the microscope, or through the "
                             "race iteration by iteration",
@@ -191,7 +184,7 @@ void add_microscope_commands(CommandTable& table) {
 void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
     table.add(opening(chain_command("race.open", "Start a race of solvers", {start_argument()},
-                                    "Runs several solvers from the same start to the same target",
+                                    "Compares solvers from the same start to the same target, with a plot",
                                     open<Study::Kind::Race>, Effect::Edit)));
     table.add(chain_command(
         "race.solver", "Choose which solvers race",
@@ -207,7 +200,7 @@ void add_study_commands(CommandTable& table) {
                               .help = "after how many iterations; a solver that took fewer stays at its end",
                               .low = 0,
                               .high = max_iterations}},
-                            "Shows each solver's chain as it stood after an iteration", show_iteration,
+                            "Shows each solver's chain as it stood after an iteration", seek<check_race>,
                             Effect::Look));
     table.add(chain_command(
         "race.play", "Play or pause the race",

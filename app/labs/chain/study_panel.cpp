@@ -1,7 +1,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -23,9 +22,16 @@ std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
     return points;
 }
 
-/// The lower end of the y axis in plots of residuals: two decades below the tolerance.
-float min_residual(float tolerance) {
-    return std::max(1e-7f, 1e-2f * tolerance);
+/// The y axis begins two decades below the tolerance.
+PlotAxes residual_axes(float tolerance, int iteration) {
+    return {.x = "iterations",
+            .y = "tip to target",
+            .y_unit = "m",
+            .min_y = std::max(1e-7f, 1e-2f * tolerance),
+            .level = tolerance,
+            .note = "\ntolerance " + short_text(static_cast<double>(tolerance), "m") + ", dashed",
+            .at_x = static_cast<float>(iteration),
+            .whole_x = true};
 }
 
 void start_buttons(const char* command, Emit& emit) {
@@ -40,37 +46,30 @@ constexpr const char* against_time = "against time";
 
 void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);
-    bool on = shown.part.study.racers[index];
+    const bool accepted = takes(method, shown.part.chain);
+    bool on = accepted && shown.part.study.racers[index];
     colour_mark(solver_colour(palette, method));
+    ImGui::BeginDisabled(!accepted);
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
-    explain((std::string("Whether it runs in the race. ") + solver_help(method)).c_str());
+    ImGui::EndDisabled();
+    if (!accepted) {
+        explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
+        return small_right(needs_two_bones);
+    }
     const auto& racers = shown.race->racers;
-    const auto racer =
-        std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
-    if (racer == racers.end()) return;
+    const auto racer = std::ranges::find(racers, method, &Racer::method);
+    const bool raced = racer != racers.end();
+    explain((std::string("Whether it runs in the race. ") + solver_help(method) +
+             (raced ? " It ran as " + ran_text(method, racer->report) + "." : ""))
+                .c_str());
+    if (!raced) return;
     ImGui::SameLine();
     const RacerAt at = racer_at(*racer, shown.step());
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
-    const std::string ran = ran_text(method, racer->report);
-    // Omit the solver's name, which is above: "least squares, 3 restarts".
-    const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(method)).size());
-    if (more != ran.npos) small_right(ran.substr(more));
-    // The same number of lines in every iteration, so that no row moves while the race plays.
+    // One line in every iteration and for every target, so that no row moves.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
-    if (racer->restored) small_right(at.finished ? restored_text(*racer) : " ");
-}
-
-/// A solver that does not accept this chain.
-void missing_racer_row(ik::Method method, const Palette& palette) {
-    colour_mark(solver_colour(palette, method));
-    bool off = false;
-    ImGui::BeginDisabled();
-    ImGui::Checkbox(solver_title(method), &off);
-    ImGui::EndDisabled();
-    explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
-    small_right(needs_two_bones);
 }
 
 void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
@@ -80,22 +79,14 @@ void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
         Curve curve{solver_title(racer.method), solver_colour(palette, racer.method),
                     by_iteration(racer.residuals)};
         const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
-        if (time) {
+        if (time)
             for (glm::vec2& p : curve.points) p.x *= 1e-6f * static_cast<float>(racer.microseconds) / last;
-        }
         curves.push_back(std::move(curve));
     }
-    plot("race plot", curves,
-         {.x = time ? "time" : "iterations",
-          .x_unit = time ? "s" : "",
-          .y = "tip to target",
-          .y_unit = "m",
-          .min_y = min_residual(race.tolerance),
-          .min_x = time ? 0.0f : 1.0f,
-          .level = race.tolerance,
-          .at_x = time ? -1.0f : static_cast<float>(shown.step()),
-          .whole_x = !time},
-         plot_lines);
+    PlotAxes axes = residual_axes(race.tolerance, time ? -1 : static_cast<int>(shown.step()));
+    axes.whole_x = !time;
+    if (time) axes.x = "time", axes.x_unit = "s", axes.min_x = 0.0f;
+    plot("race plot", curves, axes, plot_lines);
 }
 
 }  // namespace
@@ -147,7 +138,11 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(ran_text(trace.method, trace.report) + ".");
+    const float from = ImGui::GetCursorPosY();
     note(describe_frame(trace, step));
+    // Two lines for a shorter text too, so that the plot stays put from step to step.
+    const float below = from + 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), below));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
     if (trace.cut) note("The solve took more steps than were recorded.");
@@ -159,15 +154,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
-    plot("error", {&curve, 1},
-         {.x = "iterations",
-          .y = "tip to target",
-          .y_unit = "m",
-          .min_y = min_residual(tolerance),
-          .level = tolerance,
-          .at_x = static_cast<float>(trace.iteration(step)),
-          .whole_x = true},
-         plot_lines);
+    plot("error", {&curve, 1}, residual_axes(tolerance, trace.iteration(step)), plot_lines);
 }
 
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
@@ -176,13 +163,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     const ImGuiID kept_as = ImGui::GetID(against_time);
     bool time = kept.GetBool(kept_as);
     small_right(time ? "time" : "iterations");
-    for (const ik::Method method : ik::all_methods) {
-        if (takes(method, shown.part.chain)) {
-            racer_row(shown, method, time, palette, emit);
-        } else {
-            missing_racer_row(method, palette);
-        }
-    }
+    for (const ik::Method method : ik::all_methods) racer_row(shown, method, time, palette, emit);
     race_plot(shown, time, palette);
     if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
     if (ImGui::IsItemHovered()) tooltip("Measured on this machine, the fastest of several runs");
@@ -194,7 +175,8 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     explain("Shows each solver's chain in its own view, all with the same camera, instead of all in one.");
     start_buttons("race.open", emit);
     end_row();
-    if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
+    if (row_button("Copy numbers as CSV", 1, true,
+                   "Every solver's tip to target in metres, at each iteration"))
         emit("race.copy");
     const std::string film = "Writes the race from its start to its end as an animated PNG of " +
                              fixed_text(race_film_seconds(shown.last()), 0) +

@@ -228,6 +228,18 @@ TEST_P(LabCard, AHiddenCardReopensFresh) {
     EXPECT_EQ(scene.app().state().at("card").at("title"), scene.card().title);
 }
 
+TEST(ChainCard, GivesWayToARaceAndAsksForThePoleInItsFlip) {
+    CardOnScene scene({"chain", 1});
+    scene.run("chain.pole", {{"off", true}});
+    scene.play(scene.card().steps[2]);
+    EXPECT_FALSE(scene.done()[2]);
+    for (const char* const study : {"race.open", "microscope.open"}) {
+        scene.run(study, Json::object());
+        scene.wait(2);
+        EXPECT_FALSE(scene.has_ring()) << study;
+    }
+}
+
 /// The button that hides the card is somewhere near the right edge, above the steps.
 TEST_P(LabCard, OneClickHidesIt) {
     CardOnScene scene(GetParam());

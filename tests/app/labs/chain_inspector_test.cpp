@@ -1,7 +1,7 @@
 // The inspector's numbers match the picture: under the microscope, they belong to the step shown.
-#include <cstdio>
 #include <glm/common.hpp>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
@@ -16,11 +16,7 @@ class ChainInspector : public ChainTest {
     std::string text() { return reader_.inspector(lab(), workspace); }
     void expect_says(const std::string& words) { EXPECT_TRUE(test::has(text(), words)); }
     void expect_silent_about(const std::string& words) { EXPECT_FALSE(test::has(text(), words)); }
-    static std::string metres(float value, const char* format) {
-        char text[32];
-        std::snprintf(text, sizeof text, format, static_cast<double>(value));
-        return text;
-    }
+    static std::string metres(float value) { return fixed_text(static_cast<double>(value), 3) + " m"; }
     void plain_fabrik(int bones, const Json& target) {
         reach_with(bones);
         run("chain.solver", {{"name", "fabrik_plain"}});
@@ -43,10 +39,10 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     const float residual = glm::distance(joints[4], part().target),
                 bone = glm::distance(joints[4], joints[3]);
     ASSERT_GT(bone, 2.0f);
-    expect_says("tip to target " + metres(residual, "%.4f m"));
-    expect_says("bone in this step " + metres(bone, "%.3f m"));
-    expect_says("x " + metres(joints[4].x, "%.3f m"));
-    expect_says("y " + metres(joints[4].y, "%.3f m"));
+    expect_says("tip to target " + si_text(static_cast<double>(residual), "m"));
+    expect_says("bone in this step " + metres(bone));
+    expect_says("x " + metres(joints[4].x));
+    expect_says("y " + metres(joints[4].y));
     expect_silent_about("Reached");
     EXPECT_EQ(state()["microscope"]["residual"], number(residual));
     EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
@@ -55,14 +51,14 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     // On the way, the joints take poses at which no solve ended.
     run("microscope.seek", {{"step", 4}});
     const std::vector<glm::vec3> later = trace.pose(4);
-    expect_says("x " + metres(later[4].x, "%.3f m"));
-    expect_says("tip to target " + metres(glm::distance(later[4], part().target), "%.4f m"));
+    expect_says("x " + metres(later[4].x));
+    expect_says("tip to target " + si_text(static_cast<double>(glm::distance(later[4], part().target)), "m"));
 
     // The last step is the end of the solve, whose report is shown.
     run("microscope.seek", {{"step", trace.frames()}});
     expect_says("Reached");
-    expect_says("tip to target " + metres(part().result->report.residual, "%.4f m"));
-    expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
+    expect_says("tip to target " + si_text(static_cast<double>(part().result->report.residual), "m"));
+    expect_says("x " + metres(part().chain.position(4).x));
 }
 
 TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
@@ -93,6 +89,8 @@ TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     run("chain.target", {{"to", {0.5, 0, 0}}});
     EXPECT_TRUE(state().at("verdict").get<std::string>().starts_with("Limited: 0.")) << state().at("verdict");
     EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
+    run("chain.select", {{"index", 1}});
+    expect_says("Joint 1 is at 90\xc2\xb0; straight is 0");
 }
 
 TEST_F(ChainInspector, ExplainsAStalledSolve) {
@@ -128,8 +126,7 @@ TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
         run("microscope.seek", {{"step", step}});
         const std::string said = text();
         for (const glm::vec3& joint : trace->pose(step)) {
-            const std::string y = metres(joint.y, "%.2f");
-            EXPECT_TRUE(test::has(said, y == "-0.00" ? "0.00" : y)) << "step " << step;
+            EXPECT_TRUE(test::has(said, fixed_text(static_cast<double>(joint.y), 2))) << "step " << step;
         }
     }
 }

@@ -123,7 +123,8 @@ TEST_F(ChainStudy, EveryStepHasItsSentence) {
         run("chain.solver", {{"name", ik::name(method)}});
         run("microscope.open", {{"start", "straight"}});
         run("chain.target", {{"to", {0.7, 0, 0}}});
-        for (std::size_t i = 0; i <= trace().frames(); ++i) EXPECT_FALSE(describe_frame(trace(), i).empty());
+        for (std::size_t i = 0; i <= trace().frames(); ++i)
+            EXPECT_LT(describe_frame(trace(), i).size() - 1, 89u) << "one or two lines, not none";
         run("microscope.close");
     }
 }
@@ -169,7 +170,7 @@ TEST_F(ChainStudy, ARaceRowShowsItsCurvesEndAndTheSolversThatRan) {
             if (racer.restored) {
                 ++restored;
                 EXPECT_LT(racer.report.residual, racer.residuals.back()) << ik::name(racer.method);
-                EXPECT_NE(restored_text(racer), "");
+                EXPECT_TRUE(test::says(end_text(racer), "best pose restored"));
             } else {
                 EXPECT_NEAR(racer.report.residual, racer.residuals.back(), 1e-6f) << ik::name(racer.method);
             }
@@ -201,7 +202,7 @@ TEST_F(ChainStudy, TheRaceIsWrittenAsCsvAndTheChainAsCodeAndAsAScene) {
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "solver,iteration,residual,microseconds,status,ran,restored");
+    EXPECT_EQ(line, "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m");
     std::size_t rows = 0, expected = 0;
     while (std::getline(lines, line)) rows += line.empty() ? 0 : 1;
     for (const Racer& racer : race()->racers) {

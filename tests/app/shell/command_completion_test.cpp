@@ -92,6 +92,8 @@ TEST_F(Completion, RanksAddingBeforeChangingBeforeRemoving) {
         {"chain", "preset", {"chain.preset", "view.mouse"}},
         {"chain", "pole", {"chain.pole"}},
         {"chain", "seed", {"chain.preset"}},
+        {"chain", "compare solvers", {"race.open"}},
+        {"chain", "five things", {"view.card"}},
         {"rope", "rope", {"rope.add"}},
         {"rope", "cloth", {"rope.cloth.add"}},
         {"rope", "collider", {"rope.collider.add", "rope.collider.set"}},
