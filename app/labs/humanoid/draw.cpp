@@ -242,7 +242,7 @@ class Drawing {
     /// Where planted soles touch the ground. A foot that hangs over the edge of a step, or rolls onto its
     /// toes, is marked only where it stands.
     void soles() {
-        if (!shown_.feet) return;
+        if (!shown_.feet || !view_.handles) return;
         const humanoid::Ground& ground = humanoid_runtime(view_.workspace).solvers.ground(part_);
         for (std::size_t side = 0; side < 2; ++side)
             if (shown_.feet->feet[side].planted) sole(ground, shown_.soles[side]);
@@ -395,8 +395,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     for (LegendRow& row : limits_legend(workspace)) rows.push_back(std::move(row));
     const std::vector<bool> body = body_nodes(part);
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
-    if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
-        rows.push_back({"planted", colours.tail});
+    if (shown.feet) rows.push_back({.name = "planted", .colour = colours.tail, .handle = true});
     if (shown.balance) rows.push_back({"centre of mass", balance_colour(part, shown, colours)});
     if (!part.curves.empty()) rows.push_back({"curve", curve_colour(colours)});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});

@@ -175,6 +175,13 @@ Selection selection_in(const humanoid::Skeleton& skeleton, const Selection& sele
     return selection_of(names, skeleton);
 }
 
+std::string left_out_text(const HumanoidPart& part, bool held) {
+    std::vector<std::string> all =
+        names(part.attachments.list, [](const Attachment& each) { return each.name; });
+    if (held && part.ik.hold) all.push_back(held_kinds.title(part.ik.hold->kind));
+    return all.empty() ? "" : ". Left out: " + name_list_text(all);
+}
+
 Json save_selection(const Selection& selection, const humanoid::Skeleton& skeleton) {
     if (!selection.several()) return active_name(selection, skeleton);
     return {{"active", active_name(selection, skeleton)}, {"all", names_of(selection, skeleton)}};

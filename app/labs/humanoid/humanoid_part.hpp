@@ -133,6 +133,8 @@ namespace tendril::app {
 
 /// The selected names, in skeleton order.
 std::vector<std::string> names_of(const Selection& selection, const humanoid::Skeleton& skeleton);
+/// ". Left out: cape, rifle" after the message of an export of bones alone; empty if there is neither.
+std::string left_out_text(const HumanoidPart& part, bool held);
 /// The active node's name; empty if nothing is selected.
 std::string active_name(const Selection& selection, const humanoid::Skeleton& skeleton);
 

@@ -149,7 +149,6 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
         .rows("speed", "loop", "in_place", "travel", "targets_travel");
     pace_rows(panel);
     motion_rows(panel, more);
-    if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
 
 }  // namespace
@@ -285,7 +284,9 @@ void character_inspector(const HumanoidPanel& panel) {
     if (const humanoid::Clip* clip = panel.part.clip()) {
         const PanelSection of_clip("Clip");
         text_row("name", clip->name);
-        reading("time", "%.2f of %.2f s", panel.part.playback.time, clip->duration);
+        const bool paused = panel.part.playback.playing && !panel.workspace.clock.playing;
+        reading(paused ? "time, paused" : "time", "%.2f of %.2f s", panel.part.playback.time, clip->duration);
+        if (paused) explain("Space plays it.");
         if (panel.part.playback.rounds > 0)
             reading("round", "%lld", static_cast<long long>(panel.part.playback.rounds + 1));
     }

@@ -248,6 +248,17 @@ TEST_F(RowsUnderMore, AButtonCorrectsAGiantsUnit) {
     EXPECT_EQ(scale(), 100.0);
 }
 
+/// So that hair does not grow on the hips.
+TEST_F(RowsUnderMore, TheKindOfAnAttachmentChoosesItsBone) {
+    open("humanoid");
+    run("view.fold", {{"section", "humanoid: Attachments and wind"}, {"folded", false}});
+    EXPECT_TRUE(shows("Hips"));
+    click(at("rope"));
+    click(at("hair"));
+    EXPECT_TRUE(shows("Head"));
+    EXPECT_FALSE(shows("Hips"));
+}
+
 /// Gusts are shown if there is wind.
 TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
     open("rope");

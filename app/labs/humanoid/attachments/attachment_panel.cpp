@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 #include <algorithm>
+#include <array>
 
 #include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/panel.hpp"
@@ -58,9 +59,13 @@ void attachment_rows(const HumanoidPanel& panel) {
     for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     HumanoidRuntime::Panel& kept = panel.runtime.panel;
     const auto titles = attachment_kinds.titles();
-    choice_field("kind", kept.attach_kind, titles.data(), static_cast<int>(titles.size()));
+    const bool chosen =
+        choice_field("kind", kept.attach_kind, titles.data(), static_cast<int>(titles.size()));
     const auto kind = static_cast<AttachmentKind>(kept.attach_kind);
     explain(attachment_kinds.help(kind));
+    constexpr std::array suits{humanoid::Bone::Hips, humanoid::Bone::Head, humanoid::Bone::Chest};
+    const humanoid::Bone suited = suits[static_cast<std::size_t>(kind)];
+    if (chosen && panel.part.node_of(suited)) kept.attach_to = humanoid::name(suited);
     holder_field(panel);
     explain(
         "What it hangs from. A rope on Hips is a tail, hair on Head a ponytail, a cloth on Chest a cape.");

@@ -529,11 +529,12 @@ void export_shown(Workspace& workspace, const Arguments& given) {
             reports.push_back(export_one(workspace, given, i, paths[i]));
         return workspace.toast(written_text(paths.front()) +
                                (paths.size() > 1 ? " and the others" : std::string()) + ". " +
-                               sum_text(reports));
+                               sum_text(reports) + left_out_text(humanoid_part(workspace), true));
     }
     const ExportReport report = export_one(workspace, given, clip, path);
     const std::string which = one_of_clips_text(character, character.clips[clip].name);
-    workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text());
+    workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text() +
+                    left_out_text(humanoid_part(workspace), true));
 }
 
 std::vector<std::string> fault_names() {

@@ -365,7 +365,8 @@ void export_rows(const HumanoidPanel& panel) {
                       one = path.empty() ? paths_of_clips(loaded.character, any)[clip].string() : path;
     text_field("write to", path, one.c_str());
     explain(
-        "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it.");
+        "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it. "
+        "Bones and skin alone: without ropes, hair, cloth and what the hands hold.");
     const int buttons = clips.size() > 1 ? 2 : 1;
     if (row_button("Export clip", buttons, true, "Asks before it replaces a file"))
         panel.emit("humanoid.export", {{"path", one}});

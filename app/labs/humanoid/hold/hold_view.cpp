@@ -81,12 +81,11 @@ void hold_rows(const HumanoidPanel& panel) {
     const auto& hold = panel.part.ik.hold;
     if (!hold) {
         if (!why.empty()) return note("Full-body IK is off: " + why + ".");
-        constexpr HeldKind kinds[] = {HeldKind::Wheel, HeldKind::Rifle, HeldKind::Box};
-        const char* const titles[] = {"nothing", held_kinds.title(kinds[0]), held_kinds.title(kinds[1]),
-                                      held_kinds.title(kinds[2])};
+        std::vector<const char*> titles{"nothing"};
+        for (const char* each : held_kinds.titles()) titles.push_back(each);
         int chosen = 0;
-        if (choice_field("object", chosen, titles, 4) && chosen > 0)
-            panel.emit("humanoid.hold", {{"kind", held_kinds.name(kinds[chosen - 1])}});
+        if (choice_field("object", chosen, titles.data(), static_cast<int>(titles.size())) && chosen > 0)
+            panel.emit("humanoid.hold", {{"kind", held_kinds.name(static_cast<HeldKind>(chosen - 1))}});
         explain("What both hands hold.");
         return;
     }

@@ -3,6 +3,7 @@
 
 #include <tendril/humanoid/capsules.hpp>
 
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
 
@@ -20,9 +21,7 @@ class HumanoidAttach : public HumanoidTest {
     std::vector<humanoid::PlacedCapsule> capsules() const {
         const ShownPose& shown = shown_pose(workspace);
         std::vector<humanoid::PlacedCapsule> all;
-        for (const humanoid::BodyCapsule& each :
-             humanoid::fitted_capsules(part().skeleton(), *part().map,
-                                       skin_points(part().loaded->character.skin, part().loaded->rest)))
+        for (const humanoid::BodyCapsule& each : humanoid_runtime(workspace).solvers.volume(part()))
             all.push_back(humanoid::place(each, *part().map, shown.placed));
         return all;
     }

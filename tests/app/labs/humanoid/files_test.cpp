@@ -149,6 +149,12 @@ TEST_F(HumanoidFiles, AnExportReportsOtherClipsAndWritesThemAll) {
         EXPECT_NEAR(read.clips.at(0).duration, clip.duration, 0.02) << name;
     }
     expect_refused("humanoid.export", {{"path", path("x.glb")}, {"all", true}, {"clip", "walk"}}, {"clip"});
+    run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}});
+    run("humanoid.hold", {{"kind", "rifle"}});
+    run("humanoid.export", {{"path", path("bones.glb")}});
+    tells("bones.glb Left out: hair, rifle");
+    run("humanoid.copy");
+    EXPECT_TRUE(workspace.ui.toasts.back().text.ends_with("C++. Left out: hair"));
     // A file with one clip is not reported as "1 of 1".
     run("humanoid.load", {{"path", path("all_walk.bvh")}});
     run("humanoid.export", {{"path", path("again.bvh")}});
