@@ -195,6 +195,17 @@ TEST_F(HumanoidAttach, ATornOneIsReportedInTheVerdict) {
     EXPECT_EQ(humanoid_verdict(workspace).text, "\"tail\" is torn at 2 edges");
 }
 
+TEST_F(HumanoidAttach, MovesWithItsBone) {
+    dress();
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    const glm::dvec3 before = particle("ponytail", 0) - bone("Head");
+    tick(100);
+    const glm::dquat turn = quaternion(bones().at("Head").at("rotation"));
+    EXPECT_LT(glm::distance(particle("ponytail", 0), bone("Head") + turn * before), 1e-6);
+    EXPECT_GT(bone("Hips").z, 1.0);
+    EXPECT_GT(last("tail").z, bone("Hips").z - 0.8) << "the tail is no longer than it was";
+}
+
 TEST_F(HumanoidAttach, IsNotCarriedByADragOfTheHeldObjectWhileTimeRuns) {
     run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}, {"name", "cord"}});
     run("humanoid.hold", {{"kind", "box"}});
@@ -321,6 +332,36 @@ TEST_F(HumanoidAttach, IsCarriedAlongWhileTheSimulationIsPaused) {
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.3, 0.3}}}, 3);
     EXPECT_NEAR(glm::distance(particle("rope", 0), bone("LeftHand")), glm::length(before), 1e-6);
     EXPECT_GT(particle("rope", 0).z, 0.2);
+}
+
+TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
+    const std::string text = bvh_figure(), head = text.substr(0, text.find("MOTION"));
+    std::string motion = "MOTION\nFrames: 12\nFrame Time: 0.1\n";
+    const std::size_t channels = 3 + 3 * 17;
+    for (int frame = 0; frame < 12; ++frame) {
+        motion += frame % 4 < 2 ? "0 0 0" : frame < 6 ? "100000 0 0" : "0 5000 -300";
+        for (std::size_t i = 3; i < channels; ++i)
+            motion += i < 6 && frame % 3 == 1 ? " 170" : frame % 2 == 1 ? " 40" : " 0";
+        motion += "\n";
+    }
+    run("humanoid.load", {{"path", write("jump.bvh", head + motion)}});
+    run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+    run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}});
+    run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
+    for (const double speed : {1.0, 10.0, 0.1}) {
+        run("humanoid.clip", {{"speed", speed}});
+        for (int i = 0; i < 60; ++i) {
+            tick();
+            ASSERT_TRUE(all_finite()) << speed << ", tick " << i;
+            ASSERT_LT(fastest(), 200.0) << speed << ", tick " << i;
+        }
+    }
+    run("humanoid.clip", {{"play", false}});
+    tick(300);
+    EXPECT_LT(fastest(), 0.5);
+    EXPECT_LT(world().length_error(), 0.05);
+    EXPECT_LT(glm::distance(particle("cape", 0), bone("Chest")), 1.0);
 }
 
 /// Nodes anywhere, with scale 0, mirrored, a thousand kilometres away.

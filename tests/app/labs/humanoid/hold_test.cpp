@@ -46,8 +46,6 @@ TEST_F(HumanoidHold, ARifleIsBesideTheWristsAndTheChest) {
         run("humanoid.clip", {{"name", "walk"}, {"play", true}});
         tick(11);
         EXPECT_LT(number("moved"), 0.01);
-        EXPECT_TRUE(hold().at("closed").get<bool>()) << i;
-        EXPECT_FALSE(hold().at("jumped").get<bool>()) << i;
     }
 }
 
@@ -80,6 +78,21 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     EXPECT_TRUE(hold().is_null());
     expect_refused("humanoid.release", Json::object(), {"hold nothing"});
     expect_refused("humanoid.hold_move", {{"to", {0, 1, 1}}}, {"humanoid.hold"});
+}
+
+TEST_F(HumanoidHold, FollowsWhileWalking) {
+    run("humanoid.hold", {{"kind", "box"}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    const double start = bone("Hips").z, foot = bone("LeftFoot").z, object = vector(hold().at("position")).z;
+    for (int i = 0; i < 90; ++i) {
+        tick();
+        ASSERT_TRUE(hold().at("closed").get<bool>()) << i;
+        EXPECT_FALSE(hold().at("jumped").get<bool>()) << i;
+    }
+    const double way = bone("Hips").z - start;
+    EXPECT_GT(way, 0.8);
+    EXPECT_NE(bone("LeftFoot").z, foot);
+    EXPECT_NEAR(vector(hold().at("position")).z - object, way, 0.25);
 }
 
 /// Over a hand's target while the clip plays: no blend from the old pose hides the grips.
@@ -201,6 +214,16 @@ TEST_F(HumanoidHold, SaysWhichPartCannotFollow) {
     EXPECT_EQ(text(), "The right hand is turned off its grip");
 }
 
+TEST_F(HumanoidHold, IsDraggedByItsHandle) {
+    run("humanoid.hold");
+    const auto handles = lab().handles(workspace);
+    const auto found =
+        std::ranges::find_if(handles, [](const Handle& each) { return each.pick == hold_pick; });
+    ASSERT_NE(found, handles.end());
+    EXPECT_EQ(lab().gizmo(workspace)->pick, hold_pick);
+    EXPECT_EQ(std::ranges::count_if(handles, [](const Handle& each) { return each.name == "left_hand"; }), 0);
+}
+
 // Hand IK, look-at and self-collision, by the lab's commands and --state.
 
 using HumanoidHands = HumanoidTest;
@@ -271,6 +294,11 @@ TEST_F(HumanoidLook, TurnsTheHeadToATarget) {
 class HumanoidContacts : public HumanoidTest {
   protected:
     /// The depth of hands and lower arms in trunk and head as drawn, metres.
+    double penetration() { return penetration(capsules()); }
+    std::vector<humanoid::BodyCapsule> capsules() const {
+        return humanoid::fitted_capsules(part().skeleton(), *part().map,
+                                         skin_points(part().loaded->character.skin, part().loaded->rest));
+    }
     double penetration(const std::vector<humanoid::BodyCapsule>& capsules) {
         const auto& placed = shown_pose(workspace).placed;
         double deepest = 0.0;
