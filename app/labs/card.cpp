@@ -136,28 +136,29 @@ std::size_t card_index(const Workspace& w, const Arguments& given) {
 }  // namespace
 
 void add_card_commands(CommandTable& table) {
-    table.add({.name = "view.card",
-               .title = "Show or hide things to try",
-               .arguments = {{.name = "open",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "true restarts the card; toggles if omitted, unless a number is given"},
-                             {.name = "number",
-                              .type = ArgumentType::Integer,
-                              .required = false,
-                              .help = "card number, from 1; default: the last one shown"}},
-               .help = "Shows a card of five things to try, or another of this lab, or puts it away for good",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& given) {
-                   if (cards_source(w.lab).empty()) throw Refused("this lab has no card");
-                   const std::size_t card = card_index(w, given);
-                   const bool seen = card_shown(w.settings, w.lab) && w.settings.right_open;
-                   const bool open = given.has("open") ? given.boolean("open") : given.has("number") || !seen;
-                   show_card(w.settings, w.lab, open);
-                   if (!open) return;
-                   w.settings.right_open = true;  // which contains the card
-                   w.ui.cards[w.lab] = {.card = card};
-               }});
+    table.add(
+        {.name = "view.card",
+         .title = "Show or hide things to try",
+         .arguments = {{.name = "open",
+                        .type = ArgumentType::Boolean,
+                        .required = false,
+                        .help = "true restarts the card; toggles if omitted, unless a number is given"},
+                       {.name = "number",
+                        .type = ArgumentType::Integer,
+                        .required = false,
+                        .help = "card number, from 1; default: the last one shown"}},
+         .help = "Shows a card of things to try, such as Five things to try, or puts the cards away for good",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments& given) {
+             if (cards_source(w.lab).empty()) throw Refused("this lab has no card");
+             const std::size_t card = card_index(w, given);
+             const bool seen = card_shown(w.settings, w.lab) && w.settings.right_open;
+             const bool open = given.has("open") ? given.boolean("open") : given.has("number") || !seen;
+             show_card(w.settings, w.lab, open);
+             if (!open) return;
+             w.settings.right_open = true;  // which contains the card
+             w.ui.cards[w.lab] = {.card = card};
+         }});
 }
 
 }  // namespace tendril::app

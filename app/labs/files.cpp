@@ -61,7 +61,9 @@ void open(const Labs& labs, Workspace& workspace, const Arguments& given) {
     const std::string path = given.text("path"), by = given.has("by") ? given.text("by") : "";
     const FileRoute route = by.empty() ? file_route(labs, path) : route_of(labs, by);
     if (route.lab != nullptr && given.has("ask") && given.boolean("ask") &&
-        (by.empty() || by == file_route(labs, path).kind.command))
+        (by.empty() || std::ranges::any_of(route.lab->files(), [&](const FileKind& kind) {
+             return kind.command == by && has_ending(kind, path);
+         })))
         if (std::vector<FileWay> ways = route.lab->file_ways(workspace, path); !ways.empty()) {
             workspace.close_file_dialog();
             workspace.ui.file_question = {path, std::move(ways)};

@@ -83,7 +83,10 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
         if (by_.empty() || (route.lab != nullptr && by_.starts_with(route.lab->name() + '.')))
             kinds_.push_back(std::move(route.kind));
     const auto own = [&](const FileKind& kind) { return kind.command == by_; };
-    if (std::ranges::any_of(kinds_, own)) std::erase_if(kinds_, std::not_fn(own));
+    if (std::ranges::any_of(kinds_, own))
+        std::erase_if(kinds_, std::not_fn(own));
+    else if (!by_.empty())  // bone maps are recognised by their beginning, and opened by their own command
+        std::erase_if(kinds_, [](const FileKind& kind) { return kind.begins != nullptr; });
     filter_ = 0;
     std::error_code error;
     const fs::path home =
@@ -99,7 +102,7 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
 }
 
 void FileDialog::show_filter() {
-    std::vector<std::string> texts{by_.empty() ? "every kind of file" : "every file that fits"};
+    std::vector<std::string> texts{by_.empty() ? "every kind of file" : "all of these"};
     for (const FileKind& kind : kinds_) texts.push_back(kind_text(kind));
     std::vector<const char*> titles;
     for (const std::string& text : texts) titles.push_back(text.c_str());

@@ -269,7 +269,11 @@ class LogTrace final : public RawTrace {
             2 * labelled < joints.size())
             split_by_positions(joints, gaps);
         if (level_ == NameAgain) level_ = 0;
-        aims_ = 2 * labelled < joints.size() && !two_sides_ && chains_.empty() && last_is_target(joints);
+        const bool has_target = std::ranges::any_of(sample_, [](const Line& line) {
+            return std::ranges::find(line, Meaning::Target, &LogVector::meaning) != line.end();
+        });
+        aims_ = !has_target && 2 * labelled < joints.size() && !two_sides_ && chains_.empty() &&
+                last_is_target(joints);
         if (levels.contains(RuleBetween) && scanner_.components()) engine = Engine::Ros;
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);

@@ -125,10 +125,11 @@ Cure cure_of(const Prevention& prevention, const Conventions& space) {
     CommandCall call{"chain.trace", {}};
     const Json solve = save_fields({solve_fields(), &prevention.solve});
     for (const auto& [name, value] : solve.items()) call.arguments.push_back({name, SharedJson(value)});
+    const std::string text = prevention.text(space);
     return {"Show",
-            "Runs chain.trace: the ghost is solved with " + prevention.text(space) + ", and does not flip.",
+            "Runs chain.trace. The ghost does not flip with this: " + text + '.',
             {std::move(call)},
-            capitalised(prevention.text(space))};
+            capitalised(text.substr(0, text.find(", to (")))};
 }
 
 /// The incident for the strip: between its frame's moment and the one before.

@@ -64,7 +64,7 @@ void record_race(Workspace& workspace, const Arguments& given) {
 void add_race_file_commands(CommandTable& table) {
     add_race_csv_commands(table, {.race = "race",
                                   .title = "the race as CSV",
-                                  .holds = "every solver's tip to target in metres, at each iteration,",
+                                  .holds = "tip to target in metres, for every solver and iteration,",
                                   .text = open_race_csv});
     table.add(
         "race.record", "Record the race",

@@ -61,7 +61,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     const auto racer = std::ranges::find(racers, method, &Racer::method);
     const bool raced = racer != racers.end();
     explain((std::string("Whether it runs in the race. ") + solver_help(method) +
-             (raced ? " It ran as " + ran_text(method, racer->report) + "." : ""))
+             (raced ? " It ran as " + ran_text(method, racer->report) + ". " + end_text(*racer) + "." : ""))
                 .c_str());
     if (!raced) return;
     ImGui::SameLine();

@@ -76,7 +76,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     if (!filled) end_row();
     const int last = filled ? 3 : 2;
     if (row_button("Empty", last, true, clears)) emit(lab + ".clear");
-    if (row_button("Reset", last, true, "Opens the lab as at first, without this scene; undo restores it"))
+    if (row_button("Reset", last, true, "Replaces this scene by the lab's first one; undo restores it"))
         emit(lab + ".reset");
     end_row();
     return opened;

@@ -70,6 +70,8 @@ std::string linkage_code(const LinkagePart& part) {
         "        std::vector<ik::LinkDriver> drivers;\n";
     LinkageRuntime runtime;
     const bool moves = part.targets.empty() && part.result.freedom.actual == 1;  // so does a motor at rest
+    if (moves && !part.drives.empty() && std::ranges::none_of(part.drives, is_running))
+        text += "        // The motor is at rest in the lab; here it runs.\n";
     for (const LinkageDrive& each : moves ? moving_drives(part, runtime) : part.drives) {
         if (!each.held) continue;
         text += "        drivers.push_back({*linkage->find_link(" + string_text(each.joint) + "), " +

@@ -66,6 +66,12 @@ void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runt
     take_shape(part, shape_of(mechanism), runtime);
 }
 
+/// Keeps the speed, to run at it again.
+void stop(LinkageDrive& drive) {
+    if (drive.rate != 0.0) drive.last_rate = drive.rate;
+    drive.rate = 0.0;
+}
+
 void drive(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     const std::string joint = given.text("joint");
     LinkageDrive& drive = drive_of(part, joint);
@@ -77,14 +83,14 @@ void drive(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
         drive.value = turned_near(drive.value, part.value_of(joint),
                                   part.linkage().links[*part.linkage().find_link(joint)]);
     drive.held = true;
-    drive.rate = 0.0;
+    stop(drive);
     solve_linkage(part, runtime);
 }
 
 void release(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     LinkageDrive& drive = drive_of(part, given.text("joint"));
     drive.held = false;
-    drive.rate = 0.0;
+    stop(drive);
     solve_linkage(part, runtime);
 }
 
@@ -96,10 +102,9 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
     if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
-    drive.rate = usual_motor_rate(part, joint, runtime);
+    if (drive.rate == 0.0) drive.rate = usual_motor_rate(part, joint, runtime);
     if (given.has("deg_per_s")) drive.rate = glm::radians(given.real("deg_per_s"));
     if (given.has("per_s")) drive.rate = given.real("per_s");
-    if (drive.rate != 0.0) drive.last_rate = drive.rate;
     drive.held = true;
     solve_linkage(part, runtime);
 }
@@ -379,7 +384,10 @@ void add_linkage_commands(CommandTable& table) {
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
          number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
-        "Runs a joint at this speed while time passes; if none is given, at the one it last ran at", motor));
+        "Runs a joint at this speed while time passes; if none is given, at its last one, or at first 90 "
+        "degrees "
+        "or a tenth of the linkage's size a second",
+        motor));
     table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,
                                number_argument("weight", "relative to other targets", 1e-6, 1e6),

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/measures.hpp"

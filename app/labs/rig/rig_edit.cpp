@@ -211,7 +211,7 @@ void add_unit(RigPart& part, rig::Unit unit, int at, const std::string& into) {
     rig::Units* list = &definition.units;
     const auto body_of = [&](rig::Units& units, std::size_t found) {
         auto* const loop = std::get_if<rig::ForEach>(&units[found].operation);
-        if (loop == nullptr) throw std::invalid_argument("into: unit " + quoted(into) + " is no for-each");
+        if (loop == nullptr) throw std::invalid_argument("into: unit " + quoted(into) + " is not a for-each");
         list = &loop->body;
     };
     if (!into.empty()) require_unit(definition, into, body_of);
@@ -628,7 +628,8 @@ std::string selected_loop(const RigPart& part) {
 UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
     const std::string_view kind = rig::operation_name(operation);
     const std::string loop = selected_loop(part);
-    if (!loop.empty() && kind == "for_each") return {{}, "a for-each holds no other; deselect it first"};
+    if (!loop.empty() && kind == "for_each")
+        return {{}, "a for-each cannot contain another; click an element first"};
     UnitOffer offer = offered(part, kind);
     if (loop.empty() || !offer.unit) return offer;
     Json unit = **offer.unit;

@@ -227,7 +227,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     float mass = static_cast<float>(world.state().mass[particle]);
     const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // cloths have the small ones
     if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) change("rope.weight", "mass", mass);
-    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
+    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball, such as a lantern.");
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
     explain("The pull of the links at this particle. Without limit: pins are too far apart for them.");
@@ -438,7 +438,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
             reading("time per tick", "%s", cost.c_str());
             explain("How long the ropes take to simulate a tick, 1/60 s: the mean of the last second.");
             reading("real time", "%.0f %%", 100.0 * pace_of(workspace.runtimes).kept);
-            explain("How fast simulated time passes, of real time, over the last second.");
+            explain("Simulated time as a share of real time, over the last second.");
         });
     more_rows(workspace, "Numbers", more, emit);
     if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);

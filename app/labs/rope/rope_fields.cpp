@@ -140,9 +140,10 @@ std::span<const FieldText> field_texts<BodySettings>() {
         compliance_row("bend", 1,
                        "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples "
                        "at its free edge unless it collides with itself."),
-        tears_row("tear", true,
-                  "The strain at which a cloth or rope tears: 10 % is a tenth longer. A rope with a stretch "
-                  "of 0.1 %/N then tears at 100 N, one without never under a load. At 0, never."),
+        tears_row(
+            "tear", true,
+            "The strain at which a cloth or rope tears: at 10 %, in commands 0.1, it is a tenth longer. A "
+            "rope needs some stretch to tear under a load: with 0.1 %/N it tears at 100 N. At 0, never."),
         {.name = "colour",
          .label = "colour",
          .help =

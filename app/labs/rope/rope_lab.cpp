@@ -277,9 +277,9 @@ Verdict rope_verdict(const RopePart& part) {
     std::uint64_t torn = 0;
     for (const RopeSample& each : part.samples) torn += each.report.torn;
     if (torn > 0)
-        return {
-            "Torn", Verdict::Kind::Open,
-            count_text(torn, "link") + " tore in the last ten seconds. Drag the timeline back to see it."};
+        return {"Torn", Verdict::Kind::Open,
+                count_text(torn, "link") +
+                    " tore within the last ten seconds of motion. Drag the timeline back to see it."};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
@@ -327,10 +327,11 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     said.kind = Verdict::Kind::Open;
     // Ropes that need less than half of a tick are not what is slow.
     const double cost = cost_of_tick(rope_part(workspace).samples);
-    said.why = cost > 0.5 * tick_seconds ? "A tick takes " + si_text(cost, "s") +
-                                               " of its 16.7 ms: fewer particles or substeps are faster."
-                                         : "Ropes take " + si_text(cost, "s") +
-                                               " of a tick's 16.7 ms: the picture, or a program, is slow.";
+    said.why = cost > 0.5 * tick_seconds
+                   ? "A tick takes " + si_text(cost, "s") +
+                         " of its 16.7 ms: fewer particles or substeps are faster."
+                   : "Ropes take " + si_text(cost, "s") +
+                         " of a tick's 16.7 ms: drawing, or another program, takes the time.";
     return said;
 }
 

@@ -74,7 +74,7 @@ void input_section(const SignalPart& part, Emit& emit) {
 
 void export_section(Emit& emit) {
     if (row_button("Copy as C++", 2, true,
-                   "Copies the selected filter, with those it works on, as a program that uses the library"))
+                   "Copies the filters that make the shown output as a program that uses the library"))
         emit("signal.copy", {{"as", "cpp"}});
     if (row_button("Copy as CSV", 2, true, "Time, input and every stage of the last ten seconds"))
         emit("signal.copy", {{"as", "csv"}});

@@ -117,10 +117,10 @@ bool Substep::Ledger::gains_over(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(step_->acceleration_);
 }
 
-/// Removes the gain from motion relative to that of the whole, and only near a collider, relative to the mean
-/// and then from the mean: a free body keeps falling and turning. A pin takes momentum, so with one all
-/// motion is scaled alike. Any remaining gain is stretch, such as that of a body in which a collider
-/// appeared: tensions are scaled down, so that the links cannot return it as motion.
+/// Removes the gain from motion relative to the rigid motion of the whole, so that a free body keeps falling
+/// and turning. Near a collider: from motion relative to the mean, then from the mean too. A pin takes
+/// momentum, so with one all motion is scaled alike. Any remaining gain is stretch, such as that of a body in
+/// which a collider appeared: tensions are scaled down, so that the links cannot return it as motion.
 Substep::Slowdown Substep::Ledger::slowdown() const {
     Slowdown slowdown;
     if (!gains_over(rounding)) return slowdown;

@@ -3,6 +3,7 @@
 #include "rope/substep.hpp"
 
 #include "rope/body_contacts.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::rope {
 
@@ -48,6 +49,7 @@ void Substep::restore_momentum() {
         if (!is_free(group)) return;
         const RigidMotion off = rigid_motion(group, state_.position,
                                              [&](std::size_t i) { return scratch_.x[i] - scratch_.base[i]; });
+        if (!(detail::length(off.mean) < max_magnitude)) return;  // NaN in one particle stays there
         each_particle_of(group, [&](std::size_t i) { scratch_.x[i] -= off.at(state_.position[i]); });
         for (Member& each : group) each.slowdown.reset();
     });

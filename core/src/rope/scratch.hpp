@@ -276,7 +276,7 @@ struct IslandScratch {
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
     std::vector<ClothSelfContact> self_contacts;
-    /// A part of the island, or one of its isolated chains. Contacts join members to a group, which keeps
+    /// A part of the island, or a chain of an isolated part. Contacts join members to a group, which keeps
     /// momentum and energy as one.
     struct Member {
         static constexpr std::uint32_t no_chain = 0xffffffffu;

@@ -388,7 +388,7 @@ TEST_F(LinkageDrivers, AWalkerIsDrivenByItsMotorWhateverElseAFileDrives) {
     std::string other;
     for (const ik::Link& each : part().linkage().links)
         if (each.name != "motor" && each.joint == ik::LinkJoint::Hinge) other = each.name;
-    const Json extra{{"joint", other}, {"value", 0.0}, {"rate", 0.0}, {"held", false}};
+    const Json extra{{"joint", other}, {"value", 0.0}, {"rate", 0.0}, {"held", false}, {"last_rate", 0.0}};
     file["drivers"].insert(file["drivers"].begin(), extra);
     const auto loaded = part().load(file, "labs.linkage");
     LinkagePart solved = dynamic_cast<const LinkagePart&>(*loaded);

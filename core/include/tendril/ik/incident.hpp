@@ -38,7 +38,9 @@ enum class IncidentKind : std::uint8_t {
     Length,
     Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,  ///< the tip does not reach a target within its reach; amount: metres short
-    Lag,     ///< over these frames the tip is where the target was some before, 30 at most; amount: frames
+    /// From its first frame to its last, the tip is where the target was some frames earlier; amount: frames,
+    /// 30 at most.
+    Lag,
     Jitter,  ///< the tip swings while the target is still; amount: metres to either side
     /// Frames that repeat the one before in mid-motion; amount: frames. Evenly spaced repeats are one
     /// incident: the chain is updated at another rate than the log. None if the target repeats with them.
@@ -236,7 +238,8 @@ class IncidentFinder {
     };
     Late late_;
     std::vector<ChainIncident> lates_;
-    std::array<std::uint64_t, max_lag + 1> prompt_{};  ///< frames on target, which was elsewhere then
+    /// By lag: frames on a target that was elsewhere so long before.
+    std::array<std::uint64_t, max_lag + 1> prompt_{};
     std::array<Following, spans.size()> paths_{};
     glm::dvec3 origin_{0.0};
     std::optional<std::uint64_t> first_move_;

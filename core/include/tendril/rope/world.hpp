@@ -71,9 +71,9 @@ struct Advance {
                                     ///< crossed and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
-    std::span<const TornLink>
-        torn{};            ///< links over their body's tear strain, in order; a rope loses one in
-                           ///< a substep, the most strained. Valid until the workspace's next call
+    std::span<const TornLink> torn{};  ///< links over their body's tear strain, by substep, then in the order
+                                       ///< of State::links; a rope loses one in a substep, the most strained.
+                                       ///< Valid until the workspace's next call
     bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
                            ///< from: nothing was done
 };
@@ -133,7 +133,8 @@ class World {
     double mass(const Body& body) const noexcept;
     /// Density of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
     Result set_density(BodyId body, double density);
-    double density(const Body& body) const;                                    ///< 0 for a body of length 0
+    /// 0 for a body of length 0. Pieces of a cut rope keep the mass of their particles and read denser.
+    double density(const Body& body) const;
     Result set_friction(BodyId body, std::optional<float> friction) noexcept;  ///< empty: the settings'
     /// Bending stiffness of a rope, N m^2, 0 to max_magnitude.
     Result set_bending(BodyId rope, float stiffness) noexcept;

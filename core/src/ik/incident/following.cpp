@@ -266,10 +266,13 @@ void IncidentFinder::find_late(const std::array<float, max_lag + 1>& errors, flo
 
 void IncidentFinder::close_late() {
     const auto least = std::ranges::min_element(late_.squares);
-    if (late_.frames >= min_lag_frames && *least <= late_ratio * late_.squares[0] &&
-        lates_.size() < max_incidents)
-        lates_.push_back(
-            lag_of(static_cast<std::size_t>(least - late_.squares.begin()), late_.first, late_.last));
+    if (late_.frames >= min_lag_frames && *least <= late_ratio * late_.squares[0]) {
+        if (lates_.size() < max_incidents)
+            lates_.push_back(
+                lag_of(static_cast<std::size_t>(least - late_.squares.begin()), late_.first, late_.last));
+        else
+            ++dropped_;
+    }
     late_ = {};
 }
 
