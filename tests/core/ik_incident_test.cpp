@@ -169,7 +169,9 @@ TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
         ASSERT_EQ(repeated != all.end(), held > 0) << "seed " << seed << ", " << held;
         if (held == 0) continue;
         EXPECT_EQ(std::ranges::count(all, IncidentKind::Flip, &ChainIncident::kind), 0) << "seed " << seed;
-        if (target_goes_on && catches_up) EXPECT_EQ(all.size(), 1u) << "seed " << seed << ": " << said(all);
+        if (target_goes_on && catches_up) {
+            EXPECT_EQ(all.size(), 1u) << "seed " << seed << ": " << said(all);
+        }
         EXPECT_EQ(repeated->frame, first) << "seed " << seed;
         EXPECT_EQ(repeated->last_frame, first + held - 1);
         EXPECT_EQ(repeated->amount, static_cast<double>(held));
