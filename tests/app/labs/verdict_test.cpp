@@ -157,7 +157,7 @@ TEST_F(RopeVerdict, ReportsFloatingInsideOrUnsolvedBodies) {
         return paced_verdict({"Lengths hold", Verdict::Kind::Good}, workspace).why;
     };
     EXPECT_TRUE(test::says(slow(2e4f), "20.0 ms fewer particles"));
-    EXPECT_TRUE(test::says(slow(163.0f), "163 picture"));
+    EXPECT_TRUE(test::says(slow(163.0f), "163 drawing"));
     pace.kept = 1.0;
     EXPECT_TRUE(paced_verdict(said_of_second, workspace).cure);
     part.samples.back().report.dropped = 1;
