@@ -16,7 +16,7 @@ int main(int count, char** arguments) {
                                 {"solves", solve_hash(), 0x3f3a3d35f788b568u},
                                 {"curves", curve_hash(), 0x091f8043d68a5fe2u},
                                 {"linkages", linkage_hash(), 0x9f277fbe0ecdff6cu},
-                                {"ropes", rope_hash(), 0x0e5660687798d418u},
+                                {"ropes", rope_hash(), 0x58e6200fc183a8cau},
                                 {"rigs", rig_hash(), 0x179dea8ccf0e5998u},
                                 {"rig solves", rig_solve_hash(), 0x96ff544984897dfdu},
                                 {"signals", signal_hash(), 0x7deaff7769b479feu},

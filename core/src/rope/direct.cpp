@@ -46,9 +46,9 @@ constexpr double projection_tolerance = 1e-3;
 /// (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
 /// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
-/// particles by a factor of e in some 1000 substeps, and takes one percent of the energy of a pendulum with a
-/// period of one second in a minute.
-constexpr double min_backward = 0.001;
+/// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second
+/// in a minute.
+constexpr double min_backward = 0.01;
 
 }  // namespace
 
@@ -372,8 +372,8 @@ void Substep::solve_again(std::uint32_t chain) {
         SolveJob job;
         gather(block, {chain, 1, true});
         job.implicit = true;
-        job.backward[0] = i + 1 < restarts && !has_fallback_contact(it.body) ? min_backward : 1.0;
-        job.passes[0] = 8.0;
+        job.backward[0] = 1.0;
+        job.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
         job.tolerance = length_tolerance;
         scratch_.unit.single(block, job);
         scratch_.chain_error[chain] = job.worst[0];

@@ -280,7 +280,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
         go_to_finding(panel, finding);
     const std::string why =
         finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
-    explain((finding.text + why).c_str());
+    explain((where + ": " + finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
