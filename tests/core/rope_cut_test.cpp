@@ -340,6 +340,19 @@ TEST(RopeCut, RandomCutsKeepParticlesMassAndMomentum) {
     }
 }
 
+/// Only the pinned root of the last strand is left; what hung from it falls.
+TEST(RopeCut, WholeStrandsHangBesideOneThatToreAtItsRoot) {
+    World whole;
+    whole.add_hair("hair", {.roots = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}}}, .segments = 8});
+    rope::State state = whole.state();
+    std::erase_if(state.links, [](const rope::Link& each) { return each.a >= 9 && each.b > 10; });
+    World torn(state);
+    run(whole, 20.0);
+    run(torn, 20.0);
+    EXPECT_LT(glm::distance(torn.state().position[8], whole.state().position[8]), 0.02);
+    EXPECT_LT(torn.state().position[17].y, -100.0);
+}
+
 /// Links at the same strain: the rope tears at one after the other, and only while the rest still carries too
 /// much.
 TEST(RopeCut, AnOverloadedRopeTearsAtOneLinkAtATime) {

@@ -129,7 +129,7 @@ Cure cure_of(const Prevention& prevention, const Conventions& space) {
     return {"Show",
             "Runs chain.trace. The ghost does not flip with this: " + text + '.',
             {std::move(call)},
-            capitalised(text.substr(0, text.find(", to (")))};
+            capitalised(text)};
 }
 
 /// The incident for the strip: between its frame's moment and the one before.
