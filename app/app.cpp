@@ -137,8 +137,8 @@ void App::tick(const Event* event) {
     update_window();
 }
 
-/// Numbers are typed nowhere after a click beside a field, and after a field went away under the keyboard;
-/// until the next press or a key that is in no number.
+/// After a click beside a field, or when a field vanishes while it has the keyboard, typed numbers go
+/// nowhere: until the next press, or a key that is in no number.
 void App::note_typing(const Event* event) {
     const auto* press = event != nullptr ? std::get_if<MousePress>(event) : nullptr;
     const bool types = ui_.wants_text(), typed = std::exchange(was_typing_, types);

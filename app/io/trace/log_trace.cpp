@@ -278,10 +278,10 @@ class LogTrace final : public RawTrace {
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
     }
-    /// Whether, of positions without names, the distances between all but the last stay as they are.
+    /// Whether positions without names keep their distances, all but the last one.
     bool last_is_target(const std::vector<const LogVector*>& joints) {
         const std::size_t count = period_ > 0 ? period_ : joints_;
-        /// Of the longest, leaving out a tenth at either end.
+        /// The share by which a distance varies, without the tenth at either end.
         const auto change = [&](std::size_t bone) {
             std::vector<double> lengths;
             for (; bone < joints.size(); bone += count) {

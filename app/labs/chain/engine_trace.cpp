@@ -258,12 +258,15 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
 /// Takes the given arguments on how the trace is read; returns whether there are any.
 bool take_choice(ConventionChoice& choice, const Arguments& given) {
     bool any = false;
-    for (const auto& [name, into] :
-         std::initializer_list<std::pair<const char*, std::string*>>{{"up", &choice.up},
-                                                                     {"handed", &choice.handed},
-                                                                     {"unit", &choice.unit},
-                                                                     {"rotations", &choice.rotations}})
-        if (given.has(name)) *into = given.text(name), any = true;
+    const auto take = [&](const char* name, std::string& into) {
+        if (!given.has(name)) return;
+        into = given.text(name);
+        any = true;
+    };
+    take("up", choice.up);
+    take("handed", choice.handed);
+    take("unit", choice.unit);
+    take("rotations", choice.rotations);
     return any;
 }
 

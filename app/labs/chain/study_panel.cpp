@@ -85,7 +85,11 @@ void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
     }
     PlotAxes axes = residual_axes(race.tolerance, time ? -1 : static_cast<int>(shown.step()));
     axes.whole_x = !time;
-    if (time) axes.x = "time", axes.x_unit = "s", axes.min_x = 0.0f;
+    if (time) {
+        axes.x = "time";
+        axes.x_unit = "s";
+        axes.min_x = 0.0f;
+    }
     plot("race plot", curves, axes, plot_lines);
 }
 

@@ -24,7 +24,7 @@ void small_right(const std::string& text);
 struct RaceCsv {
     std::string race;                       ///< "race", "rope.race"
     std::string title;                      ///< after "Copy" and "Save": "the race as CSV"
-    std::string holds;                      ///< "every solver's tip to target in metres, at each iteration,"
+    std::string holds;                      ///< "tip to target in metres, for every solver and iteration,"
     std::string (*text)(const Workspace&);  ///< throws Refused if no race is open
 };
 void add_race_csv_commands(CommandTable& table, const RaceCsv& csv);

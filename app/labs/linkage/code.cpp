@@ -44,7 +44,9 @@ std::string linkage_code(const LinkagePart& part) {
         "#include <cstdio>\n"
         "#include <tendril/ik/linkage.hpp>\n"
         "#include <tendril/ik/mechanisms.hpp>\n"
-        "#include <vector>\n\nusing namespace tendril;\n\nint main() {\n";
+        "#include <vector>\n\n"
+        "using namespace tendril;\n\n"
+        "int main() {\n";
     const Mechanism& mechanism = part.shape->mechanism;
     const bool drawn = kind_of(mechanism) == nullptr, plane = part.shape->in_plane();
     if (drawn)
@@ -90,7 +92,10 @@ std::string linkage_code(const LinkagePart& part) {
         "            const glm::dvec3 at = solver.point(i);\n"
         "            std::printf(\" %s %.6f %.6f %.6f\", linkage->points[i].name.c_str(), at.x, at.y, "
         "at.z);\n"
-        "        }\n        std::puts(\"\");\n    }\n}\n";
+        "        }\n"
+        "        std::puts(\"\");\n"
+        "    }\n"
+        "}\n";
     return text;
 }
 

@@ -122,7 +122,7 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
         explain("As in files and commands.");
     } else {
         reading(("speed of " + part.selected).c_str(), "%s", speed.c_str());
-        explain("At the motor's speed; if it is stopped, at the one it would run at. Show plots it.");
+        explain("At the motor's speed, or at the speed it would run at. Show plots it.");
     }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
     explain("Where it is: X, Y and Z.");

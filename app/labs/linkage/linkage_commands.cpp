@@ -384,9 +384,8 @@ void add_linkage_commands(CommandTable& table) {
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
          number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
-        "Runs a joint at this speed while time passes; if none is given, at its last one, or at first 90 "
-        "degrees "
-        "or a tenth of the linkage's size a second",
+        "Runs a joint at this speed while time passes. Default: the speed it last ran at, or first 90 "
+        "degrees or a tenth of the linkage's size a second",
         motor));
     table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,

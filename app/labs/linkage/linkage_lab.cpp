@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-/// The picked one of those whose picks begin at `first`; null if it is none of them.
+/// The picked item of `all`, whose picks begin at `first`; null if something else is picked.
 template <class T>
 const T* picked(const std::vector<T>& all, PickId pick, PickId first) {
     const bool is_one = pick >= first && static_cast<std::size_t>(pick - first) < all.size();

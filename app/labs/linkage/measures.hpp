@@ -67,9 +67,9 @@ std::vector<LinkageDrive> moving_drives(const LinkagePart& part, LinkageRuntime&
 /// Metres per second of a point in this pose, at the speed of moving_drives(). NaN for a point of the ground,
 /// without a motor, at a dead point, and where the motors contradict.
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
-/// "0.52 m/s", or "523.6 mm/s" of a linkage smaller than a metre.
+/// "0.52 m/s", or "523.6 mm/s" if the linkage is smaller than a metre.
 std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime);
-/// "0.52 m/s", or of a motor at rest "1.85 m/s at 90 deg/s"; empty if there is no speed.
+/// "0.52 m/s", or "1.85 m/s at 90 deg/s" if the motor is at rest; empty if there is no speed.
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
 
 /// Degrees of freedom, including those of floating bars: three for each free piece, plus its internal ones.

@@ -81,7 +81,7 @@ struct UnitOffer {
 /// selected elements. A for-each loops over all selected elements; while it or a unit in it is selected, it
 /// gets the new unit, for each element.
 UnitOffer offered_unit(const RigPart& part, std::size_t operation);
-/// The for-each that is selected, or has the selected unit; empty if there is none.
+/// The for-each that is selected, or contains the selected unit; empty if there is none.
 std::string selected_loop(const RigPart& part);
 
 }  // namespace tendril::app

@@ -13,7 +13,7 @@ namespace tendril::app {
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
-/// The change of a command that removes what `of` finds by its name, and what refers to it.
+/// Removes what `of` finds by its name, and all that refers to it.
 template <auto of, auto removal>
 void remove_named(RopeEdit& edit, const Arguments& given) {
     of(edit.seen(), given.text("name"));

@@ -225,7 +225,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     };
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     float mass = static_cast<float>(world.state().mass[particle]);
-    const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // cloths have the small ones
+    const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // a cloth's particles are light
     if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) change("rope.weight", "mass", mass);
     explain("Its mass. A particle much heavier than its neighbours is drawn as a ball, such as a lantern.");
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));

@@ -231,7 +231,7 @@ std::optional<ParticlePlace> tied_from(const RopePart& part, const NamedWorld& w
                                        const ParticlePlace& to) {
     return from_selected(RopeTool::Tie, part, world, to);
 }
-/// Of a cloth.
+/// Where a cut of a cloth would begin.
 std::optional<ParticlePlace> cut_from(const RopePart& part, const NamedWorld& world,
                                       const ParticlePlace& to) {
     const auto from = from_selected(RopeTool::Cut, part, world, to);

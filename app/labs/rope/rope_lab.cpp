@@ -325,7 +325,7 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // slower still
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
-    // Ropes that need less than half of a tick are not what is slow.
+    // If ropes take less than half of a tick, something else is slow.
     const double cost = cost_of_tick(rope_part(workspace).samples);
     said.why = cost > 0.5 * tick_seconds
                    ? "A tick takes " + si_text(cost, "s") +

@@ -45,7 +45,7 @@
 
 namespace tendril::rope {
 
-/// A link that its body lost, as it was.
+/// A link that tore, as it was.
 struct TornLink {
     BodyId body;
     Link link;

@@ -251,7 +251,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     update_episode(missed_, true, now);
 }
 
-// Late for a while: the tip is off its target, and on the one of some frames before.
+// Late for a while: the tip misses its target, and meets an earlier one.
 void IncidentFinder::find_late(const std::array<float, max_lag + 1>& errors, float allowed) {
     const auto best = [&] { return std::ranges::min_element(late_.squares) - late_.squares.begin(); };
     if (late_.frames > 0 && !(errors[static_cast<std::size_t>(best())] <= allowed)) close_late();

@@ -52,7 +52,7 @@ inline constexpr double max_other_ratio = 1.02;  ///< likewise in every comparis
 /// The tip's path may be 0.5 to 2 times the size of the target's; with 0.999, 149 are found.
 inline constexpr double lag_scale = 0.5;
 inline constexpr std::size_t min_lag_frames = 8;  ///< minimum number of moving frames
-inline constexpr double late_ratio = 0.0625;      ///< late for a while: of the squares without a lag
+inline constexpr double late_ratio = 0.0625;      ///< likewise, of a tip that is late for a while
 
 /// A tip leaps if it is off its path by this multiple of the steps around it and this share of the reach.
 /// With 6, or with 0.1, some of the 300 planted faults are missed; 1.5 and 0.005 do as well.
