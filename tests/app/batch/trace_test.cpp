@@ -39,7 +39,7 @@ TEST_F(TraceProgram, PrintsTheFrameJointAndCauseOfAFlip) {
     EXPECT_TRUE(says(outcome.out, "arm.jsonl: 120 frames, 60 fps, Z up, left-handed, centimetres (given)"));
     EXPECT_TRUE(says(outcome.out, "Frame 60: flip at joint 1, degrees"));
     EXPECT_TRUE(says(outcome.out, "Two-bone flips on the same input"));
-    EXPECT_TRUE(says(outcome.out, "prevented by: pole moved by"));
+    EXPECT_TRUE(says(outcome.out, "prevented by: pole target moved by"));
     EXPECT_TRUE(says(outcome.out, "1 incident"));
 }
 

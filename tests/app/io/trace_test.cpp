@@ -127,7 +127,7 @@ TEST(Trace, OfAFlipThatNoSolverHasItReportsWhetherOneReaches) {
     const Conventions metres;
     const Prevention pole{
         .kind = Prevention::Kind::Pole, .solve = {.pole_by = {0.042f, 0, 0}}, .pole = glm::vec3(1, 2, 3)};
-    EXPECT_EQ(pole.text(metres), "pole moved by 42.0 mm, to (1.000, 2.000, 3.000) m");
+    EXPECT_EQ(pole.text(metres), "pole target moved by 42.0 mm, to (1.000, 2.000, 3.000) m");
 }
 
 TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {

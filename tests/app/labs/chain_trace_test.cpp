@@ -56,7 +56,7 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     EXPECT_EQ(flips()[0].joint, 1u);
     EXPECT_NE(flips()[0].cause.find("pole"), std::string::npos);
     ASSERT_FALSE(flips()[0].buttons.empty());
-    EXPECT_NE(flips()[0].buttons[0].text.find("Pole moved by"), std::string::npos);
+    EXPECT_NE(flips()[0].buttons[0].text.find("Pole target moved by"), std::string::npos);
     run("time.incident", {{"number", 0}});
     EXPECT_TRUE(workspace.ui.incident);
     EXPECT_EQ(workspace.moment, made.frame);
