@@ -70,7 +70,8 @@ PastCurve rope_curve(const Workspace& workspace) {
                     const NamedWorld& world = *part_as<RopePart>(then).world;
                     const Particles particles = measured_particles(world, selection);
                     if (empty || particles.empty()) return no_value;
-                    return measure.value(world, particles, selection ? world.find(selection->body) : nullptr);
+                    return measures[which].value(world, particles,
+                                                 selection ? world.find(selection->body) : nullptr);
                 },
             .of = of};
 }

@@ -8,6 +8,7 @@
 #include "humanoid/input.hpp"
 #include "humanoid/names.hpp"
 #include "humanoid/shape.hpp"
+#include "math/elementary.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -459,7 +460,7 @@ void review(BoneMap& map, const Skeleton& skeleton) {
     map.upright = true;
     if (has(Bone::Hips) && has(Bone::Head)) {
         const glm::dvec3 way = at(Bone::Head) - at(Bone::Hips);
-        map.upright = way.y > std::hypot(way.x, way.z);
+        map.upright = way.y > std::sqrt(way.x * way.x + way.z * way.z);
     }
     map.rest = RestPose::Other;
     double lowest = 90.0, highest = -90.0;  // degrees above level, of both upper arms
@@ -467,7 +468,8 @@ void review(BoneMap& map, const Skeleton& skeleton) {
         const auto lower = static_cast<Bone>(static_cast<int>(upper) + 1);
         if (!has(upper) || !has(lower)) return;
         const glm::dvec3 way = at(lower) - at(upper);
-        const double angle = std::atan2(way.y, std::hypot(way.x, way.z)) * 180.0 / rig::detail::pi;
+        const double angle =
+            math::arctangent(way.y, std::sqrt(way.x * way.x + way.z * way.z)) * 180.0 / rig::detail::pi;
         lowest = std::min(lowest, angle), highest = std::max(highest, angle);
     }
     if (lowest >= -22.5 && highest <= 22.5)

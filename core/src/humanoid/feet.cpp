@@ -2,6 +2,7 @@
 
 #include "humanoid/feet.hpp"
 #include "humanoid/input.hpp"
+#include "math/elementary.hpp"
 #include "rig/checks.hpp"
 
 namespace tendril::humanoid {
@@ -20,7 +21,7 @@ std::array<glm::dvec3, count> disc_of() noexcept {
     std::array<glm::dvec3, count> disc;
     for (std::size_t i = 0; i < count; ++i) {
         const double r = std::sqrt((static_cast<double>(i) + 0.5) / count);
-        const auto [sine, cosine] = math::sine_cosine(golden_turn * static_cast<double>(i));
+        const auto [sine, cosine] = math::sine_cosine_of_turns(golden_turn * static_cast<double>(i));
         disc[i] = {r * cosine, 0.0, r * sine};
     }
     return disc;

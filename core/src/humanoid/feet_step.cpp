@@ -5,6 +5,7 @@
 
 #include "humanoid/feet_step.hpp"
 #include "humanoid/input.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::humanoid {
 namespace detail {
@@ -64,7 +65,7 @@ bool FeetStep::place() noexcept {
                      legs_[i].tail.apply(plan_.balls[i]), legs_[i].tail.apply(plan_.soles.feet[i].toe)};
     }
     floor_ = root.apply({0.0, options_.floor.value_or(plan_.soles.floor), 0.0}).y;
-    steepest_ = math::sine_cosine(options_.max_slope / (2.0 * math::pi)).cosine;
+    steepest_ = math::cosine(options_.max_slope);
     if (!state_.started || has_jumped()) state_ = {};
     first_step_ = !state_.started;
     last_raise_ = state_.base - state_.drop;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/elementary.hpp"
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
 
@@ -33,7 +34,7 @@ Expected<Ground> Ground::flat(double height) {
 
 Expected<Ground> Ground::slope(double angle) {
     if (!(std::abs(angle) <= 1.5)) return refused("slope", "angle", "from -1.5 to 1.5 radians", angle);
-    const auto [sine, cosine] = math::sine_cosine(angle / (2.0 * math::pi));
+    const auto [sine, cosine] = math::sine_cosine(angle);
     return Ground(Shape(Slope{sine / cosine}));
 }
 

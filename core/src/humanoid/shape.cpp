@@ -159,7 +159,7 @@ class Shape {
             return minus(at(path[*upper + 3]), at(path[*upper + 2]));
         };
         const glm::dvec3 toes = plus(toe_of(pair.a), toe_of(pair.b));
-        if (std::hypot(toes.x, toes.z) > 0.03 * height_) {
+        if (std::sqrt(toes.x * toes.x + toes.z * toes.z) > 0.03 * height_) {
             left_ = {toes.z, 0.0, -toes.x};  // up x forward
             found_.left_known = true;
         }

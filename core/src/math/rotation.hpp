@@ -46,11 +46,11 @@ static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>
 }
 /// Rotation about a unit axis, radians.
 static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
-    const float s = std::sin(0.5f * angle);
-    return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
+    const float s = sine(0.5f * angle);
+    return {cosine(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
 }
 static inline glm::dquat rotation_about(const glm::dvec3& axis, double angle) noexcept {
-    const SineCosine half = sine_cosine(angle / (4.0 * pi));
+    const SineCosine half = sine_cosine(0.5 * angle);
     return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
 }
 /// Interpolates along the shortest rotation (K. Shoemake, "Animating rotation with quaternion curves",
@@ -60,9 +60,9 @@ static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float 
     const float sign = cosine < 0.0f ? -1.0f : 1.0f, size = std::abs(cosine);
     float a = 1.0f - part, b = part;
     if (size < 0.9995f) {
-        const float angle = std::acos(size);
-        a = std::sin(a * angle), b = std::sin(b * angle);  // not divided by sin(angle): unit_quaternion
-                                                           // normalises
+        const float angle = arctangent(std::sqrt((1.0f - size) * (1.0f + size)), size);
+        a = sine(a * angle), b = sine(b * angle);  // not divided by sin(angle): unit_quaternion
+                                                   // normalises
     }
     b *= sign;
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,

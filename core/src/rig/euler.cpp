@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/elementary.hpp"
 #include "rig/euler_choice.hpp"
 #include "rig/math.hpp"
 #include "tendril/rig/transform.hpp"
@@ -82,7 +83,7 @@ glm::dvec3 to_euler(const glm::dquat& q) noexcept {
 
 glm::dquat from_euler(const glm::dvec3& angles) noexcept {
     const auto half = [](double angle) {
-        const auto [sine, cosine] = math::sine_cosine(angle / (4.0 * pi));
+        const auto [sine, cosine] = math::sine_cosine(0.5 * angle);
         return CosSin{cosine, sine};
     };
     return rotation_of({half(angles.x), half(angles.y), half(angles.z)});

@@ -45,8 +45,8 @@ inline glm::dquat slerp(const glm::dquat& from, const glm::dquat& to, double par
     const double half = half_angle_between(from, to);
     double a = 1.0 - part, b = part;
     if (half > 1e-9) {  // below, sines equal their angles
-        a = math::sine_cosine(a * half / (2.0 * pi)).sine;
-        b = math::sine_cosine(b * half / (2.0 * pi)).sine;
+        a = math::sine(a * half);
+        b = math::sine(b * half);
     }
     if (dot(from, to) < 0.0) b = -b;
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,

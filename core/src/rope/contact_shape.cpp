@@ -123,7 +123,7 @@ Shape interpolated(const Collider& collider, double part) noexcept {
 
 glm::dquat rotation_after(const Drive& drive, double seconds) noexcept {
     const double half = 0.5 * seconds * static_cast<double>(drive.spin);
-    return {std::cos(half), std::sin(half) * unit(dvec3(drive.axis))};
+    return {math::cosine(half), math::sine(half) * unit(dvec3(drive.axis))};
 }
 
 Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept {

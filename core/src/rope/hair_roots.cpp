@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/checks.hpp"
+#include "math/elementary.hpp"
 #include "math/vector.hpp"
 
 namespace tendril::rope {
@@ -33,7 +34,8 @@ std::vector<PatchPoint> patch_points(const HairPatch& patch, glm::vec3 direction
     for (int i = 0; i < patch.strands; ++i) {
         const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(patch.strands);
         const float angle = golden_angle * static_cast<float>(i);
-        found.push_back({patch.spread * std::sqrt(part), std::cos(angle) * first + std::sin(angle) * second});
+        found.push_back(
+            {patch.spread * std::sqrt(part), math::cosine(angle) * first + math::sine(angle) * second});
     }
     return found;
 }
@@ -65,8 +67,9 @@ Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& pa
         // Along an arc on a ball of the collider's size, and from there to its surface.
         const float angle = ball > 0.0f ? point.distance / ball : 0.0f;
         const glm::vec3 from =
-            ball > 0.0f ? middle + ball * (std::cos(angle) * direction + std::sin(angle) * point.outwards)
-                        : middle + point.distance * point.outwards;
+            ball > 0.0f
+                ? middle + ball * (math::cosine(angle) * direction + math::sine(angle) * point.outwards)
+                : middle + point.distance * point.outwards;
         const SurfaceDistance surface = surface_distance(shape, from);
         const glm::vec3 normal(surface.normal);
         roots.push_back({from + (lift - static_cast<float>(surface.distance)) * normal, normal});

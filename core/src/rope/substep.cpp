@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "math/elementary.hpp"
 #include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
@@ -89,7 +90,7 @@ int Substep::passes_allowed() const {
 }
 
 void Substep::move_particles() {
-    damping_ = std::exp(-static_cast<double>(state_.settings.damping) * h_);
+    damping_ = math::decay(static_cast<double>(state_.settings.damping) * h_);
     // Verlet's rule for uneven steps: the previous substep may have had another length.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;

@@ -1,5 +1,6 @@
 #include "tendril/signal/interpolate.hpp"
 
+#include "math/elementary.hpp"
 #include "signal/stepped.hpp"
 
 namespace tendril::signal {

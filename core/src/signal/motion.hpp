@@ -25,7 +25,7 @@ static inline Motion motion_of(double strength, double damping, double t) noexce
     double c, s;
     if (below >= 0.0) {
         const double turns = strength * t * std::sqrt(below), angle = 2.0 * math::pi * turns;
-        const math::SineCosine swing = math::sine_cosine(turns);
+        const math::SineCosine swing = math::sine_cosine_of_turns(turns);
         const double left = math::decay(damping * w * t);
         c = left * swing.cosine;
         s = left * t * (angle > 1e-100 ? swing.sine / angle : 1.0);

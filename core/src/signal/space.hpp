@@ -101,7 +101,7 @@ static inline dvec3 moved(const dvec3& from, const dvec3& by) noexcept {
 }
 static inline dquat moved(const dquat& from, const dvec3& by) noexcept {
     const double angle = math::length(by);
-    const math::SineCosine half = math::sine_cosine(angle * (0.25 / math::pi));
+    const math::SineCosine half = math::sine_cosine(0.5 * angle);
     const double scale = angle > 1e-12 ? half.sine / angle : 0.5;
     return wide(compose({half.cosine, by.x * scale, by.y * scale, by.z * scale}, from));
 }

@@ -4,6 +4,7 @@
 #include "humanoid/joint_turn.hpp"
 #include "humanoid/lint/lint.hpp"
 #include "ik/limits/joint.hpp"
+#include "math/elementary.hpp"
 #include "math/vector.hpp"
 
 namespace tendril::humanoid::lint_detail {
@@ -51,7 +52,7 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
     const double twisted = std::max({0.0, static_cast<double>(shoulder.twist_min) - twist,
                                      twist - static_cast<double>(shoulder.twist_max)});
     // The turn to the nearest allowed side; to straight, if twisted by over a right angle too far.
-    const double aside = std::sin(bend) * std::sin(twisted);
+    const double aside = math::sine(bend) * math::sine(twisted);
     double backwards =
         twisted < 0.5 * pi ? arctangent(aside, std::sqrt(std::max(0.0, 1.0 - aside * aside))) : bend;
     // Some captures turn the forearm instead of the upper arm: up to 60 degrees, bent by 66, in

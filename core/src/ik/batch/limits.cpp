@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ik/limits/joint.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -13,7 +14,7 @@ constexpr float min_half_angle = 1e-3f;
 
 HalfRange half_range(float min, float max) noexcept {
     const bool whole = max - min >= 2.0f * pi - at_bound;
-    return {std::sin(0.5f * std::clamp(min, -pi, pi)), std::sin(0.5f * std::clamp(max, -pi, pi)), whole};
+    return {math::sine(0.5f * std::clamp(min, -pi, pi)), math::sine(0.5f * std::clamp(max, -pi, pi)), whole};
 }
 
 /// 1 / angle^2, as in solvable_joint (limits/joint.cpp): straight back, neither the twist nor the side of the

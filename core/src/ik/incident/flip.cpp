@@ -6,6 +6,7 @@
 
 #include "ik/incident/thresholds.hpp"
 #include "ik/math.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::ik {
 namespace {
@@ -61,7 +62,7 @@ const char* text(FlipCause cause) noexcept {
 }
 
 float angle_between(glm::vec3 a, glm::vec3 b) noexcept {
-    return std::atan2(math::length(math::cross(a, b)), math::dot(a, b));
+    return math::arctangent(math::length(math::cross(a, b)), math::dot(a, b));
 }
 
 BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept {
@@ -83,7 +84,7 @@ BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept
 
 InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept {
     return {.distance = math::length(math::minus(to, from)),
-            .angle = std::atan2(math::length(math::cross(from, to)), math::dot(from, to))};
+            .angle = math::arctangent(math::length(math::cross(from, to)), math::dot(from, to))};
 }
 
 bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule) noexcept {

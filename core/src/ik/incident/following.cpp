@@ -434,7 +434,7 @@ std::size_t IncidentFinder::find_lag() const {
     std::ranges::transform(paths_, left.begin(), &Following::left);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
-        const double least = std::ranges::min(left[i]), same = frames * std::pow(0.1 * least_rms, 2.0);
+        const double least = std::ranges::min(left[i]), same = frames * 0.01 * least_rms * least_rms;
         // The first of equal fits: a circling target comes back later.
         const auto lag = static_cast<std::size_t>(
             std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -

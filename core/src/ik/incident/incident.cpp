@@ -7,6 +7,7 @@
 
 #include "ik/incident/thresholds.hpp"
 #include "ik/math.hpp"
+#include "math/elementary.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
@@ -311,8 +312,9 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
         const glm::quat turn = math::compose(rotations[i], math::conjugate(before[i]));
         const glm::quat swing = math::minimal_rotation(*pointed, *bone);
         const glm::quat roll = math::compose(turn, math::conjugate(swing));
-        const float radians = 2.0f * std::atan2(std::abs(math::dot(glm::vec3(roll.x, roll.y, roll.z), *bone)),
-                                                std::abs(roll.w));
+        const float radians =
+            2.0f *
+            math::arctangent(std::abs(math::dot(glm::vec3(roll.x, roll.y, roll.z), *bone)), std::abs(roll.w));
         if (radians > furthest.radians) furthest = {i, radians};  // false for NaN
     }
     const float degrees = in_degrees(furthest.radians);

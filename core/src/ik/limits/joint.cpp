@@ -4,6 +4,7 @@
 
 #include "ik/limits/clamp.hpp"
 #include "ik/math.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr float min_freedom = 1e-5f;  ///< smaller half-angles are no range
 
 HalfAngle half_of(float angle) noexcept {
-    return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
+    return {std::max(math::cosine(0.5f * angle), 0.0f), math::sine(0.5f * angle)};
 }
 
 /// A rotation split into one about a main axis (a hinge's own, or the bone for a twist), applied first, and
@@ -112,10 +113,10 @@ glm::quat joined(const LimitedJoint& joint, const Split& parts) noexcept {
 
 void set_swing(Split& parts, const Swing& swing) noexcept {
     const float angle = std::sqrt(swing.up * swing.up + swing.left * swing.left);
-    const float scale = angle < 1e-6f ? 0.5f : std::sin(0.5f * angle) / angle;
+    const float scale = angle < 1e-6f ? 0.5f : math::sine(0.5f * angle) / angle;
     parts.first = swing.up * scale;
     parts.second = swing.left * scale;
-    parts.cosine = std::cos(0.5f * angle);
+    parts.cosine = math::cosine(0.5f * angle);
 }
 
 Swing swing_of(const Split& parts) noexcept {
@@ -199,7 +200,7 @@ LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction)
     constexpr float maximum = pi - 0.02f;
     for (float* angle : {&joint.up, &joint.down, &joint.left, &joint.right})
         *angle = std::min(*angle, maximum);
-    const float sine = std::sin(0.5f * std::max(std::min(minimum, maximum) - 2.0f * at_bound, 0.0f));
+    const float sine = math::sine(0.5f * std::max(std::min(minimum, maximum) - 2.0f * at_bound, 0.0f));
     joint.round = sine * sine;
     return joint;
 }
@@ -207,7 +208,7 @@ LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction)
 JointAngles angles_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     const Split parts = split(joint, rotation);
     const Swing swing = swing_of(parts);
-    const float about = 2.0f * std::atan2(parts.about.sine, parts.about.cosine);
+    const float about = 2.0f * math::arctangent(parts.about.sine, parts.about.cosine);
     return joint.hinge() ? JointAngles{about, swing.up, swing.left}
                          : JointAngles{swing.up, swing.left, about};
 }
@@ -215,7 +216,7 @@ JointAngles angles_of(const LimitedJoint& joint, const glm::quat& rotation) noex
 glm::quat rotation_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
     if (joint.hinge()) return rotation_about(joint.axis, angles.up);
     Split parts{};
-    parts.about = {std::cos(0.5f * angles.twist), std::sin(0.5f * angles.twist)};
+    parts.about = {math::cosine(0.5f * angles.twist), math::sine(0.5f * angles.twist)};
     set_swing(parts, {angles.up, angles.left});
     return joined(joint, parts);
 }

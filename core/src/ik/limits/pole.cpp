@@ -2,6 +2,7 @@
 
 #include "ik/limits/pose.hpp"
 #include "ik/pole/pole.hpp"
+#include "math/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -17,7 +18,7 @@ float angle_between(const Problem& problem, const LimitedPose& before, const glm
         const glm::vec3 off = minus(from, times(line, dot(from, line)));
         if (dot(off, off) <= furthest) continue;
         furthest = dot(off, off);
-        angle = std::atan2(dot(line, cross(off, to)), dot(off, to));
+        angle = math::arctangent(dot(line, cross(off, to)), dot(off, to));
     }
     return angle;
 }

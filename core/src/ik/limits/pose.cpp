@@ -1,6 +1,7 @@
 #include "ik/limits/pose.hpp"
 
 #include "ik/tunables.hpp"
+#include "math/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -9,8 +10,8 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
     const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
     const float sine = length(vector);
     if (sine < 1e-6f) return times(vector, rotation.w < 0.0f ? -2.0f : 2.0f);
-    const float angle =
-        rotation.w < 0.0f ? -2.0f * std::atan2(sine, -rotation.w) : 2.0f * std::atan2(sine, rotation.w);
+    const float angle = rotation.w < 0.0f ? -2.0f * math::arctangent(sine, -rotation.w)
+                                          : 2.0f * math::arctangent(sine, rotation.w);
     return times(vector, angle / sine);
 }
 

@@ -17,7 +17,7 @@ namespace {
 using Point2 = glm::dvec2;
 
 Point2 point_at_angle(double radius, double radians) noexcept {
-    const math::SineCosine turn = math::sine_cosine(radians / (2.0 * math::pi));
+    const math::SineCosine turn = math::sine_cosine(radians);
     return {radius * turn.cosine, radius * turn.sine};
 }
 

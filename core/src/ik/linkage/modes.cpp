@@ -110,7 +110,7 @@ double place_in_order(const LinkageWork& work) noexcept {
         const glm::dquat& q = joint.turn;  // q and -q are one rotation
         switch (work.linkage.links[i].joint) {
             case LinkJoint::Hinge:
-                place += math::sine_cosine((joint.value - phase) / (2.0 * math::pi)).cosine;
+                place += math::cosine(joint.value - phase);
                 break;
             case LinkJoint::Slider:
                 place += joint.value / (phase * work.size);

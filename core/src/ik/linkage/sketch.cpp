@@ -178,7 +178,7 @@ class SketchTree {
             const SketchPoint& each = sketch_.points[i];
             if (each.hold == SketchHold::Pinned) owner_[i] = ground_link;
             if (each.hold != SketchHold::Guided) continue;
-            const math::SineCosine turn = math::sine_cosine(each.guide / (2.0 * math::pi));
+            const math::SineCosine turn = math::sine_cosine(each.guide);
             Link slider;
             slider.name = each.name;
             slider.joint = LinkJoint::Slider;

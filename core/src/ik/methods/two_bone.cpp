@@ -10,6 +10,7 @@
 #include "ik/pole/pole.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
+#include "math/elementary.hpp"
 #include "math/ranges.hpp"
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
@@ -89,7 +90,7 @@ std::optional<glm::dvec3> present_side(const Given& given, const glm::dvec3& lin
 }
 
 glm::dvec3 turned(const glm::dvec3& side, const glm::dvec3& line, double angle) noexcept {
-    return plus(times(side, std::cos(angle)), times(cross(line, side), std::sin(angle)));
+    return plus(times(side, math::cosine(angle)), times(cross(line, side), math::sine(angle)));
 }
 
 /// The new bend side. `maximum`: how far it may differ from the current one if there is a pole, radians.
@@ -107,7 +108,7 @@ glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOpti
     const glm::dvec3 start = pole ? *pole : present ? *present : perpendicular(line);
     const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;
     if (!pole || !present) return wanted;
-    const double angle = std::atan2(dot(cross(*present, wanted), line), dot(*present, wanted));
+    const double angle = math::arctangent(dot(cross(*present, wanted), line), dot(*present, wanted));
     return std::abs(angle) <= maximum ? wanted : turned(*present, line, std::copysign(maximum, angle));
 }
 

@@ -7,6 +7,7 @@
 
 #include "ik/math.hpp"
 #include "ik/tunables.hpp"
+#include "math/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -62,7 +63,7 @@ bool is_on_line(const Problem& problem, const glm::dvec3& to_target) noexcept {
 
 /// The angle about `line` from one vector to another, -pi to pi, ignoring their components along the line.
 double angle_about(const glm::dvec3& line, const glm::dvec3& from, const glm::dvec3& to) noexcept {
-    return std::atan2(dot(cross(from, to), line), dot(from, to) - dot(from, line) * dot(to, line));
+    return math::arctangent(dot(cross(from, to), line), dot(from, to) - dot(from, line) * dot(to, line));
 }
 
 /// Rotates a vector about a unit axis.
@@ -71,7 +72,7 @@ struct AxisAngle {
     double sine, cosine;
 
     AxisAngle(const glm::dvec3& about, double angle) noexcept
-        : axis(about), sine(std::sin(angle)), cosine(std::cos(angle)) {}
+        : axis(about), sine(math::sine(angle)), cosine(math::cosine(angle)) {}
     glm::dvec3 operator()(const glm::dvec3& v) const noexcept {
         const glm::dvec3 along = times(axis, dot(axis, v));
         return plus(along, plus(times(minus(v, along), cosine), times(cross(axis, v), sine)));
@@ -89,7 +90,7 @@ double limited(double angle, double arm, double allowance) noexcept {
 double half_angle_of_arc(double span) noexcept {
     double h = std::sqrt(6.0 * std::max(1.0 - span, 0.0));
     for (int step = 0; step < 6 && h > 1e-6; ++step) {
-        h -= (std::sin(h) - span * h) / (std::cos(h) - span);
+        h -= (math::sine(h) - span * h) / (math::cosine(h) - span);
     }
     return h;
 }
@@ -215,7 +216,7 @@ bool bend_to_pole(Problem& problem, Watch watch) noexcept {
         const auto size = static_cast<double>(problem.lengths()[i]);
         const double angle = half * (1.0 - (2.0 * before + size) / reach);
         before += size;
-        at = plus(at, times(plus(times(*line, std::cos(angle)), times(*side, std::sin(angle))), size));
+        at = plus(at, times(plus(times(*line, math::cosine(angle)), times(*side, math::sine(angle))), size));
         place(problem, i + 1, i, at, watch);
     }
     watch.next_step();
@@ -270,7 +271,7 @@ void transport_to_pole(Problem& problem, Watch watch) noexcept {
     const double sine = length(normal);
     // For opposite directions any perpendicular axis will do.
     const glm::dvec3 axis = sine > 1e-9 ? times(normal, 1.0 / sine) : perpendicular(*from);
-    const double angle = std::atan2(sine, dot(*from, *to));
+    const double angle = math::arctangent(sine, dot(*from, *to));
     if (angle > 1e-9) rotate_chain(problem, AxisAngle(axis, angle), watch);
     if (problem.options.pole_turn == PoleTurn::EachJoint) return;
     const double about = whole_angle(problem, *to);
