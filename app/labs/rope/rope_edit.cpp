@@ -73,7 +73,7 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                 });
             }
             if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
-                part.quiet_ticks = 0;
+                part.quiet_ticks = 0, part.start.reset();
         });
 }
 

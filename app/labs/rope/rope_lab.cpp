@@ -99,7 +99,9 @@ void RopeLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified();
     const Clock& clock = workspace.clock;
     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
+    const auto before = workspace.document.parts().at(rope_lab);
     const auto stopped = guarded_step<RopePart>(workspace, rope_lab, [&](RopePart& part) {
+        if (!part.start) part.start = before;
         const std::uint64_t substeps = part.world->state().substeps;
         const bool measured = clock.measured || !part.rivals.empty();
         bool rests = true;
@@ -255,6 +257,12 @@ Verdict rope_verdict(const RopePart& part) {
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
     if (report.inside > 0)
         return {"Inside a collider", Verdict::Kind::Bad,
+Cure restart_cure() {
+    return {"Restart",
+            "Puts everything where the last change left it; undo leads back here",
+            {{"rope.restart", {}}}};
+}
+
                 std::to_string(report.inside) + " particles cannot get out. Move the body or a collider."};
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
@@ -278,8 +286,8 @@ Verdict rope_verdict(const RopePart& part) {
     for (const RopeSample& each : part.samples) torn += each.report.torn;
     if (torn > 0)
         return {"Torn", Verdict::Kind::Open,
-                count_text(torn, "link") +
-                    " tore within the last ten seconds of motion. Drag the timeline back to see it."};
+                count_text(torn, "link") + " tore in the last ten seconds: drag the timeline back to see it.",
+                part.start ? std::optional(restart_cure()) : std::nullopt};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
