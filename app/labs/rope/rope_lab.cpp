@@ -211,6 +211,16 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
+/// Whether links are, taken together, shorter than they rest.
+bool squeezed(const rope::State& state) {
+    double longer = 0.0;  // metres
+    for (const rope::Link& each : state.links)
+        if (each.kind == rope::Link::Kind::Stretch)
+            longer += glm::distance(state.position[each.a], state.position[each.b]) -
+                      static_cast<double>(each.rest);
+    return longer < 0.0;
+}
+
 /// The name of the body with the largest length error.
 const std::string& worst_body(const NamedWorld& world) {
     const auto error = [&](const rope::Body& body) { return world.length_error(body); };
@@ -247,6 +257,12 @@ bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
 
 }  // namespace
 
+Cure restart_cure() {
+    return {"Restart",
+            "Puts everything where the last change left it; undo leads back here",
+            {{"rope.restart", {}}}};
+}
+
 Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // fraction of its length: visibly too long
     if (part.world->state().bodies.empty())
@@ -257,12 +273,6 @@ Verdict rope_verdict(const RopePart& part) {
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
     if (report.inside > 0)
         return {"Inside a collider", Verdict::Kind::Bad,
-Cure restart_cure() {
-    return {"Restart",
-            "Puts everything where the last change left it; undo leads back here",
-            {{"rope.restart", {}}}};
-}
-
                 std::to_string(report.inside) + " particles cannot get out. Move the body or a collider."};
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
@@ -291,10 +301,14 @@ Cure restart_cure() {
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
-        if (stretches(*part.world))
-            return {"Stretched by " + percent, Verdict::Kind::Open,
-                    worst_body(*part.world) +
-                        " may stretch: its own stretch, or the compliance under Solver, is above 0."};
+        if (stretches(*part.world)) {
+            const bool slack = squeezed(part.world->state());
+            return {
+                (slack ? "Squeezed by " : "Stretched by ") + percent, Verdict::Kind::Open,
+                worst_body(*part.world) +
+                    (slack ? " is longer than the space it has: it unfolds as it moves."
+                           : " may stretch: its own stretch, or the compliance under Solver, is above 0.")};
+        }
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps.",
                 shorter_substeps(part)};
     }
