@@ -262,6 +262,16 @@ TEST_F(CureButton, RestartsARopeThatTore) {
     EXPECT_EQ(verdict(), "Torn");
 }
 
+TEST_F(CureButton, HasNoTooltipUnderThePalette) {
+    run("lab.open", {{"name", "chain"}});
+    take(app::MouseMove{at("Arm")});
+    const auto told = [&] { return seen("7 joints").has_value(); };
+    wait(30);
+    EXPECT_TRUE(told());
+    key("ctrl+k");
+    EXPECT_FALSE(told());
+}
+
 /// Also with a joint selected, whose rows would push it out of a small window.
 TEST_F(CureButton, OfAFlipIsVisibleOnceItsMarkIsClicked) {
     run("chain.preset", {{"name", "reaching_arm"}});
