@@ -9,6 +9,7 @@
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -60,6 +61,12 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     run("time.incident", {{"number", 0}});
     EXPECT_TRUE(workspace.ui.incident);
     EXPECT_EQ(workspace.moment, made.frame);
+    // In a row too narrow for all of it, the amount stays.
+    workspace.rewind.note(
+        {.cause = "the pole",
+         .title = "Frame 1: flip at joint 1 (a_bone_whose_name_leaves_no_room), 57 degrees"});
+    EXPECT_NE(test::PanelReader().inspector(lab(), workspace).find("Frame 1: flip at joint 1, 57 degrees"),
+              std::string::npos);
 }
 
 TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
