@@ -96,8 +96,9 @@ TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {
         *made.frames[i].pole += by;
     }
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
-    run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}});
+    run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}, {"pole_by", {0, 0.02, 0}}});
     const std::string code = chain_code(part());
+    EXPECT_NE(code.find("Its pole target is 2 cm from the trace's."), code.npos) << code;
     EXPECT_NE(code.find("Z up, left-handed, centimetres"), code.npos) << code;
     EXPECT_NE(code.find("options.soft_zone = 0.05f;"), code.npos) << code;
     EXPECT_NE(code.find("limits[1]"), code.npos) << code;
