@@ -262,6 +262,20 @@ TEST_F(CureButton, RestartsARopeThatTore) {
     EXPECT_EQ(verdict(), "Torn");
 }
 
+/// As a person expects of a chain that reaches, though the command alone leaves the tip where it is.
+TEST_F(CureButton, IsNotNeededForAJointMore) {
+    run("chain.reset");
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("view.fold", {{"section", "chain: Joints"}, {"folded", false}});
+    const std::size_t joints = app_.state().at("segments").size();
+    click(at("Add"));
+    EXPECT_EQ(app_.state().at("segments").size(), joints + 1);
+    EXPECT_EQ(verdict(), "Reached");
+    run("undo");
+    EXPECT_EQ(app_.state().at("segments").size(), joints);
+}
+
 TEST_F(CureButton, HasNoTooltipUnderThePalette) {
     run("lab.open", {{"name", "chain"}});
     take(app::MouseMove{at("Arm")});
