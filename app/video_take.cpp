@@ -52,7 +52,8 @@ Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer,
     if (text != nullptr)
         over = [&](const std::vector<Pane>& panes, const Palette& colours) {
             text->draw(panes, workspace.camera, lab.panes(workspace),
-                       drawn_legend(workspace, lab, look.handles), colours);
+                       drawn_legend(workspace, lab, look.handles), colours,
+                       lab.picture_plot(workspace, colours));
         };
     const Background background = look.transparent ? Background::Transparent
                                   : look.paper     ? Background::White

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -218,6 +219,8 @@ class Lab {
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
     /// Whether pictures and videos have labels and legend if the request does not specify it.
     virtual bool labels_pictures(const Workspace&) const { return false; }
+    /// Draws the plot that stands in a corner of pictures with labels; null: none.
+    virtual std::function<void()> picture_plot(const Workspace&, const Palette&) const { return {}; }
     /// The sphere that the camera frames: around all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 

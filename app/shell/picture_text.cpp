@@ -10,6 +10,7 @@
 
 #include "app/shell/labels_view.hpp"
 #include "app/shell/panes_view.hpp"
+#include "app/shell/theme.hpp"
 #include "app/shell/ui.hpp"
 
 namespace tendril::app {
@@ -95,8 +96,10 @@ void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& p
 }
 
 void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
-                       std::span<const LegendRow> legend, const Palette& palette) {
+                       std::span<const LegendRow> legend, const Palette& palette,
+                       const std::function<void()>& plot) {
     const CurrentContext current(context_);
+    apply_theme(palette.theme, scale_);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     const Rect view{{0.0f, 0.0f}, glm::vec2(size_)};
@@ -108,6 +111,15 @@ void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std:
     for (const Pane& pane : panes)
         show_labels(pane.drawn, pane.camera(pose), palette, scale_, std::span(&covered, 1));
     show_pane_titles(panes, titles, palette, scale_, false);
+    if (plot && panes.size() == 1) {
+        const glm::vec2 at = glm::vec2(1.0f) - *corner_, to = at * glm::vec2(size_);
+        ImGui::SetNextWindowPos({to.x, to.y}, ImGuiCond_Always, {at.x, at.y});
+        ImGui::SetNextWindowSize({300.0f * scale_, 210.0f * scale_});  // scale 1 is a picture of 800 x 600
+        ImGui::SetNextWindowBgAlpha(0.8f);
+        ImGui::Begin("plot", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs);
+        plot();
+        ImGui::End();
+    }
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

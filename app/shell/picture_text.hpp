@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -28,8 +29,9 @@ class PictureText {
     /// of all pictures of a video. Without this, draw() decides by its first picture.
     void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
     /// Draws over the scene, into the bound framebuffer. The panes were drawn with that camera and palette.
+    /// The plot is drawn in the corner opposite the legend, unless there are several panes.
     void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
-              std::span<const LegendRow> legend, const Palette& palette);
+              std::span<const LegendRow> legend, const Palette& palette, const std::function<void()>& plot);
 
   private:
     void count_covered(std::span<const Pane> panes, const CameraPose& pose,

@@ -358,6 +358,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     NumberEditing& editing = number_editing();
     editing.middle_min = {layout.left.max.x, layout.top.max.y};
     editing.middle_max = {layout.right.min.x, layout.timeline.min.y};
+    editing.covered = frame.workspace.ui.covered();
     top_bar(frame, emit);
     side_panel(frame, true, emit);
     side_panel(frame, false, emit);

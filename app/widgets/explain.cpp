@@ -37,6 +37,7 @@ std::string range_text(const RowAbove& row) {
     const std::string unit = unit_suffix(unit_of(row.format.data()));
     const bool low = row.low > -no_limit, high = row.high < no_limit;
     if (low && high) return ' ' + plain_number(row.low) + " to " + plain_number(row.high) + unit + '.';
+    if (low && row.low > 0.0 && row.low < 1e-5) return " More than 0" + unit + '.';
     if (low) return ' ' + plain_number(row.low) + unit + " or more.";
     if (high) return ' ' + plain_number(row.high) + unit + " or less.";
     if (unit.empty()) return {};

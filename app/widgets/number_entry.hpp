@@ -49,6 +49,7 @@ struct NumberEditing {
     RowAbove row;
     OpenList list;
     glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: see tooltip.hpp
+    bool covered = false;                          ///< a sheet lies over panels and bars
     RowSearch* search = nullptr;                   ///< the search in progress; see row_search.hpp
 };
 

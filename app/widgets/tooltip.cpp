@@ -35,11 +35,15 @@ TooltipRoom room_in_middle(const Rect& item) {
     return {{numbers.middle_min, numbers.middle_max}, item, 1};
 }
 
+/// Whether the last item is in a sheet or a list, over panels and bars.
+bool floats() {
+    return (ImGui::GetCurrentWindowRead()->RootWindow->Flags & ImGuiWindowFlags_NoBringToFrontOnFocus) == 0;
+}
+
 TooltipRoom room_of_last_item() {
     const ImGuiWindow& root = *ImGui::GetCurrentWindowRead()->RootWindow;
     const Rect window{vec(root.Pos), vec(root.Pos) + vec(root.Size)};
-    const bool floats = (root.Flags & ImGuiWindowFlags_NoBringToFrontOnFocus) == 0;
-    if (floats) return {{{0.0f, 0.0f}, vec(ImGui::GetIO().DisplaySize)}, window};
+    if (floats()) return {{{0.0f, 0.0f}, vec(ImGui::GetIO().DisplaySize)}, window};
     const TooltipRoom middle = room_in_middle(last_item());
     return middle.whole.contains(window.centre()) ? middle : TooltipRoom{middle.whole, window};
 }
@@ -106,7 +110,7 @@ bool was_clicked() {
 }  // namespace
 
 void tooltip(const std::string& text) {
-    if (was_clicked()) return;
+    if (was_clicked() || (number_editing().covered && !floats())) return;
     const Tooltip opened;
     ImGui::TextUnformatted(text.c_str());
 }

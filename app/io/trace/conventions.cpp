@@ -186,6 +186,12 @@ std::string Conventions::place(glm::vec3 p) const {
            fixed_text(at.z, decimals) + ") " + trace_units.name(unit.value);
 }
 
+std::string Conventions::length(double length) const {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3g %s", length / metres(), trace_units.name(unit.value));
+    return text;
+}
+
 glm::quat Conventions::rotation(const glm::dvec4& r) const {
     const bool first = rotations.value == QuaternionOrder::Wxyz;
     glm::dvec3 axis = first ? glm::dvec3(r.y, r.z, r.w) : glm::dvec3(r.x, r.y, r.z);

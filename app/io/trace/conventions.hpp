@@ -47,7 +47,8 @@ struct Conventions {
     glm::vec3 point(const glm::dvec3& p) const;
     /// The inverse: as the file would have it.
     glm::dvec3 written(glm::vec3 p) const;
-    std::string place(glm::vec3 p) const;  ///< as the file would have it: "(30.0, -50.0, 140.0) cm"
+    std::string place(glm::vec3 p) const;     ///< as the file would have it: "(30.0, -50.0, 140.0) cm"
+    std::string length(double metres) const;  ///< likewise: "4.2 cm"
     /// A quaternion as it is written. NaN stays NaN.
     glm::quat rotation(const glm::dvec4& r) const;
     double metres() const;  ///< that one unit is

@@ -245,7 +245,7 @@ std::string Prevention::text(const Conventions& space) const {
             return std::string("solver ") + solver_title(solve.method);
         case Kind::Pole:
             if (adds_pole) return "pole target at " + space.place(*pole);
-            return "pole target moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
+            return "pole target moved by " + space.length(static_cast<double>(glm::length(solve.pole_by))) +
                    ", to " + space.place(*pole);
         case Kind::SoftZone:
             return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);

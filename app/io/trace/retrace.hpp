@@ -83,7 +83,7 @@ struct Prevention {
     std::optional<glm::vec3> pole{};  ///< where the pole target then is, in the flip's frame
     bool adds_pole = false;           ///< the trace has none
 
-    /// "pole target moved by 42.0 mm, to (30.0, -50.0, 140.0) cm"
+    /// "pole target moved by 4.2 cm, to (30.0, -50.0, 140.0) cm"
     std::string text(const Conventions& space) const;
 };
 inline constexpr const char* prevention_names[]{"method", "pole", "soft_zone", "hinge"};

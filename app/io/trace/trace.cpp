@@ -23,7 +23,8 @@ std::string frames_of(const ik::ChainIncident& incident) {
 }
 
 /// "flip at joint 1 (elbow), 128 degrees"
-std::string incident_text(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
+std::string incident_text(const ik::ChainIncident& incident, const std::vector<std::string>& bones,
+                          const Conventions& space) {
     std::string joint = "joint " + std::to_string(incident.joint);
     if (incident.joint < bones.size()) joint += " (" + printable(bones[incident.joint]) + ')';
     const auto text = [&](const char* format, auto... values) {
@@ -31,7 +32,8 @@ std::string incident_text(const ik::ChainIncident& incident, const std::vector<s
         std::snprintf(all, sizeof all, format, values...);
         return std::string(all);
     };
-    const double amount = incident.amount, mm = 1000.0 * std::abs(amount);
+    const double amount = incident.amount;
+    const std::string length = space.length(std::abs(amount));
     switch (incident.kind) {
         case ik::IncidentKind::Flip:
             return "flip at " + joint + text(", %.0f degrees", amount);
@@ -40,20 +42,20 @@ std::string incident_text(const ik::ChainIncident& incident, const std::vector<s
         case ik::IncidentKind::Limit:
             return joint + text(" is %.1f degrees beyond its limit", amount);
         case ik::IncidentKind::Length:
-            return (incident.joint == ik::no_joint ? "all bones are" : "the bone to " + joint + " is") +
-                   text(" %.3g mm %s", mm, amount < 0.0 ? "shorter" : "longer");
+            return (incident.joint == ik::no_joint ? "all bones are" : "the bone to " + joint + " is") + ' ' +
+                   length + (amount < 0.0 ? " shorter" : " longer");
         case ik::IncidentKind::Jitter:
-            return joint + text(" jitters by %.3g mm at %.3g Hz", mm, incident.hertz);
+            return joint + " jitters by " + length + text(" at %.3g Hz", incident.hertz);
         case ik::IncidentKind::Lag:
             return joint + text(" is %.0f frame%s late", amount, amount == 1.0 ? "" : "s");
         case ik::IncidentKind::Missed:
-            return joint + text(" is %.3g mm short of the target", mm);
+            return joint + " is " + length + " short of the target";
         case ik::IncidentKind::Misplaced:
-            return (incident.joint == ik::no_joint ? "the chain" : joint) + text(" is %.3g mm off", mm);
+            return (incident.joint == ik::no_joint ? "the chain" : joint) + " is " + length + " off";
         case ik::IncidentKind::TargetJump:
-            return text("the target jumps by %.3g m", amount);
+            return "the target jumps by " + length;
         case ik::IncidentKind::PoleJump:
-            return text("the pole target jumps by %.3g m", amount);
+            return "the pole target jumps by " + length;
         case ik::IncidentKind::Repeated:
             break;
     }
@@ -64,8 +66,8 @@ std::string incident_text(const ik::ChainIncident& incident, const std::vector<s
 
 }  // namespace
 
-std::string TracedIncident::title(const std::vector<std::string>& bones) const {
-    return frames_of(*this) + ": " + incident_text(*this, bones);
+std::string TracedIncident::title(const std::vector<std::string>& bones, const Conventions& space) const {
+    return frames_of(*this) + ": " + incident_text(*this, bones, space);
 }
 
 TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::optional<double> fps)

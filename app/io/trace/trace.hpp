@@ -78,9 +78,7 @@ struct TracedIncident : ik::ChainIncident {
     PreventedFlip prevented{};  ///< of a flip
 
     /// "Frame 60: flip at joint 1 (elbow), 128 degrees". Bones as in the header; may be empty.
-    std::string title(const std::vector<std::string>& bones) const;
-    /// Title and cause: "Frame 60: flip at ...: the target's line passed the pole".
-    std::string text(const std::vector<std::string>& bones) const { return title(bones) + ": " + cause; }
+    std::string title(const std::vector<std::string>& bones, const Conventions& space) const;
 };
 
 /// What was found in a trace, chain by chain.

@@ -8,6 +8,7 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 
@@ -252,6 +253,12 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
 /// On in a race: without the legend its solvers cannot be told apart.
 bool ChainLab::labels_pictures(const Workspace& workspace) const {
     return chain_part(workspace).study.kind == Study::Kind::Race;
+}
+
+std::function<void()> ChainLab::picture_plot(const Workspace& workspace, const Palette& palette) const {
+    const ShownChain shown = shown_chain(workspace);
+    if (!shown.race) return {};
+    return [shown, &palette] { race_plot(shown, false, palette); };
 }
 
 std::vector<MouseHelp> ChainLab::mouse_help() const {

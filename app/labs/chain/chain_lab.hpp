@@ -65,6 +65,7 @@ class ChainLab final : public Lab {
     std::vector<PaneTitle> panes(const Workspace& workspace) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
     bool labels_pictures(const Workspace& workspace) const override;
+    std::function<void()> picture_plot(const Workspace&, const Palette&) const override;
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;

@@ -72,6 +72,9 @@ class ChainProgram {
                       " of " + printable(pose->trace->name) + ", in its axes and unit (" +
                       trace_ups.title(space.up.value) + ", " + trace_hands.title(space.handed.value) + ", " +
                       unit_ + "), with the target of frame " + std::to_string(pose->frame) + '.';
+            const double moved = static_cast<double>(glm::length(pose->trace->view.pole_by));
+            if (moved > 0.0 && pose->trace->frames.front().pole)
+                origin_ += " Its pole target is " + space.length(moved) + " from the trace's.";
         }
         if (part_.mode == ChainMode::Curve) part_.chain = Chain(part_.along.given);
         part_.study.rewind(part_.chain, part_.reach);
@@ -165,7 +168,7 @@ void ChainProgram::chain() {
             say("    {" + braced(each.position) + ", " + literal(each.length) + "},");
         say("};");
     }
-    say("// What has no direction of its own lies along this one.");
+    say("// A bone without a direction of its own lies along this one.");
     say("const glm::vec3 default_direction" + braced(part_.chain.default_direction()) + ";");
     say("tendril::Chain chain = tendril::Chain::from_segments(segments, default_direction).value();\n");
     if (!follows()) say("const glm::vec3 target" + braced(part_.target) + ";");

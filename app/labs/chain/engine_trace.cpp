@@ -127,7 +127,7 @@ Cure cure_of(const Prevention& prevention, const Conventions& space) {
     for (const auto& [name, value] : solve.items()) call.arguments.push_back({name, SharedJson(value)});
     const std::string text = prevention.text(space);
     return {"Show",
-            "Runs chain.trace. The ghost does not flip with this: " + text + '.',
+            "Runs chain.trace. Tendril's solve does not flip with this: " + text + '.',
             {std::move(call)},
             capitalised(text)};
 }
@@ -144,7 +144,7 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
                       .joint = found.joint == ik::no_joint ? after.chain.size() - 1 : found.joint,
                       .degrees = static_cast<float>(std::abs(found.amount)),
                       .cause = found.cause,
-                      .title = found.title(trace.bones)};
+                      .title = found.title(trace.bones, trace.conventions)};
     if (found.kind != ik::IncidentKind::Flip) {
         if (found.kind != ik::IncidentKind::Limit) incident.degrees = 0.0f;
         return incident;
@@ -206,7 +206,9 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
         said += "; shown: frames " + std::to_string(first) + " to " +
                 std::to_string(first + trace.frames.size() - 1) + " with " + std::to_string(shown);
     const TracedIncident* const found = first_shown(trace);
-    return found == nullptr ? said : said + ". " + found->text(trace.bones);
+    return found == nullptr
+               ? said
+               : said + ". " + found->title(trace.bones, trace.conventions) + ": " + found->cause;
 }
 
 /// Puts the trace on the strip and shows its first fault; with `same_frames` the strip stays at its moment.
@@ -322,7 +324,8 @@ Verdict trace_verdict(const TracedPose& pose) {
     for (const TracedIncident& each : pose.trace->incidents)
         if (each.frame <= pose.frame && pose.frame <= each.last_frame) found = &each;
     if (found == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
-    return {found->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(found->cause) + "."};
+    return {found->title(pose.trace->bones, pose.trace->conventions), Verdict::Kind::Bad,
+            capitalised(found->cause) + "."};
 }
 
 std::vector<glm::vec3> traced_points(const TracedPose& pose) {

@@ -135,12 +135,18 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
 
 void segment_rows(const ChainPart& part, Emit& emit) {
     const float length = length_of_next(part.chain);
+    /// In mode reach the new chain reaches again, in the same step.
+    const auto change = [&](const char* command, const ArgumentList& arguments) {
+        emit.continuously(command, arguments);
+        if (part.mode == ChainMode::Reach && part.motion.path == Motion::Path::Still)
+            emit.continuously("chain.target", {{"to", part.target}});
+    };
     if (row_button("Add", 3, true, "Adds a joint at the end, with a bone of that length"))
-        emit("chain.add", {{"length", length}});
+        change("chain.add", {{"length", length}});
     const auto selected = part.selection.active();
     const bool several = part.selection.several();
     if (row_button("Insert", 3, selected.has_value(), "Inserts a joint before the selected one"))
-        emit("chain.insert", {{"index", *selected}, {"length", length}});
+        change("chain.insert", {{"index", *selected}, {"length", length}});
     if (row_button("Remove", 3, selected.has_value(),
                    several ? "Removes the selected joints" : "Removes the selected joint"))
         emit("chain.remove_selected");

@@ -40,6 +40,8 @@ void limit_rows(const ChainPart& part, const std::vector<glm::vec3>& pose, Emit&
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 /// Inspector: the solvers of the race and their results.
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
+/// Each solver's tip to target after each iteration, or against time.
+void race_plot(const ShownChain& shown, bool time, const Palette& palette);
 
 /// The outcome of a move: "Reached", "Out of reach: 0.23 m short", "Limited: 0.10 m short".
 Verdict chain_verdict(const ChainPart& part);

@@ -109,6 +109,7 @@ Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 targe
               ChainRuntime& runtime) {
     Race race;
     race.tolerance = reach_tolerance(settings, chain.reach());
+    race.root_to_target = glm::distance(chain.segments().front().position, target);
     for (const ik::Method method : ik::all_methods) {
         if (racers[static_cast<std::size_t>(method)])
             race.racers.push_back(run(method, chain, settings, target, runtime));
@@ -161,7 +162,7 @@ std::string end_text(const Racer& racer) {
         ran.find_first_not_of(" +,", std::string_view(solver_title(racer.method)).size());
     if (racer.restored)
         text += "; best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
-    if (more != ran.npos) return text + "; " + ran.substr(more);
+    if (more != ran.npos && racer.iterations() > 0) return text + "; " + ran.substr(more);
     return racer.restored ? text : text + " from the target";
 }
 
@@ -171,13 +172,14 @@ std::string race_csv(const Race& race) {
         std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
         return std::string(text);
     };
-    std::string csv = "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m\n";
+    std::string csv =
+        "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m\n";
     for (const Racer& racer : race.racers) {
         const int last = racer.iterations();
         for (int i = 0; i <= last; ++i) {
             csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
-                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' +
-                   fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
+                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' + metres(race.root_to_target) +
+                   ',' + fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
             csv += i < last ? ",,"
                             : std::string(ik::name(racer.report.status)) + ",\"" +
                                   ran_text(racer.method, racer.report) + "\"," +

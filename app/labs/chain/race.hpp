@@ -71,7 +71,7 @@ RacerAt racer_at(const Racer& racer, std::size_t iteration);
 
 struct Race {
     std::vector<Racer> racers;
-    float tolerance = 0.0f;  ///< metres
+    float tolerance = 0.0f, root_to_target = 0.0f;  ///< metres
 
     /// The largest count of all racers.
     std::size_t iterations() const;
@@ -91,8 +91,9 @@ std::string error_text(const Racer& racer, const RacerAt& at);
 /// above: "Out of reach, 310 mm; solved in closed form".
 std::string end_text(const Racer& racer);
 
-/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, microseconds; the last row
-/// of a solver adds status, ran (see ran_text) and restored_m: of the best pose if that was restored.
+/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, root_to_target_m,
+/// microseconds; the last row of a solver adds status, ran (see ran_text) and restored_m: of the best pose if
+/// that was restored.
 std::string race_csv(const Race& race);
 
 }  // namespace tendril::app

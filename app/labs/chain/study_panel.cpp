@@ -72,6 +72,8 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
 }
 
+}  // namespace
+
 void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
     const Race& race = *shown.race;
     std::vector<Curve> curves;
@@ -92,8 +94,6 @@ void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
     }
     plot("race plot", curves, axes, plot_lines);
 }
-
-}  // namespace
 
 void study_rows(const ChainPart& part, Emit& emit) {
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
@@ -188,7 +188,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
                              "race.record also writes GIF and MP4, at "
                              "any size and pace.";
     if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
-    if (row_button("Save a picture", 2, true, "Saves or copies the race as it is shown, as Ctrl+P does"))
+    if (row_button("Save a picture", 2, true, "Saves or copies the scene with the plot, as Ctrl+P does"))
         emit("view.picture_dialog");
     end_row();
 }

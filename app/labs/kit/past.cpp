@@ -447,14 +447,21 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     std::string title = incident_title(incident);
     if (incident.title.empty())
         title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
+    const std::string whole = title;
+    const float room = ImGui::GetContentRegionAvail().x;
+    const std::size_t bone = title.find(" (");  // its name makes way for the amount
+    if (bone != title.npos && elided(title, room) != title)
+        title.erase(bone, title.find(')', bone) + 1 - bone);
+    title = elided(title, room);
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));
-    if (ImGui::Selectable(elided(title, ImGui::GetContentRegionAvail().x).c_str(), chosen,
-                          ImGuiSelectableFlags_None, {0.0f, ImGui::GetFrameHeight()})) {
+    if (ImGui::Selectable(title.c_str(), chosen, ImGuiSelectableFlags_None,
+                          {0.0f, ImGui::GetFrameHeight()})) {
         chosen ? emit("time.incident") : emit("time.incident", {{"number", number}});
     }
     ImGui::PopStyleVar();
     ImGui::PopID();
-    if (ImGui::IsItemHovered() && !workspace.ui.incident) tooltip(incident.cause + ".");
+    if (ImGui::IsItemHovered() && (!workspace.ui.incident || title != whole))
+        tooltip((title == whole ? "" : whole + ": ") + incident.cause + ".");
 }
 
 }  // namespace
@@ -477,7 +484,10 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     ImGui::TextUnformatted((shown->cause + ".").c_str());
     if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
     ImGui::PopTextWrapPos();
-    for (const Cure& cure : shown->buttons) cure_line(cure.text, cure, emit);
+    for (const Cure& cure : shown->buttons) {
+        if (!cure.text.empty()) note(cure.text);
+        cure_line("", cure, emit);
+    }
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
     // Scroll to the incident if its mark on the strip was clicked.
     if (appears && workspace.ui.incident_chosen && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);

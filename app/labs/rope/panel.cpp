@@ -121,6 +121,8 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
+    if (row_button("Restart", 1, part.start != nullptr, restart_cure().help.c_str())) emit("rope.restart");
+    end_row();
     constexpr float uneven = 0.5f;  // of the dial: 4 to 65 ms
     const auto rates = signal::usual_rates();
     for (const signal::FrameRate& rate : rates) {

@@ -73,7 +73,7 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                 });
             }
             if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
-                part.quiet_ticks = 0;
+                part.quiet_ticks = 0, part.start.reset();
         });
 }
 
@@ -165,6 +165,13 @@ std::size_t body_with(const rope::State& state, std::size_t particle, std::size_
     while (particle < state.bodies[near].first) --near;
     while (particle - state.bodies[near].first >= state.bodies[near].count) ++near;
     return near;
+}
+
+double mass_of_weights(const rope::State& state, const rope::Body& rope) {
+    constexpr double heavy_from =
+        4.0;  // half of a segment hangs on an end, so all others have twice its mass
+    const auto first = state.mass.begin() + static_cast<std::ptrdiff_t>(rope.first);
+    return heavy_from * *std::min_element(first, first + static_cast<std::ptrdiff_t>(rope.count));
 }
 
 std::vector<std::size_t> held_particles(const RopeRacer& racer) {

@@ -99,7 +99,9 @@ void RopeLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified();
     const Clock& clock = workspace.clock;
     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
+    const auto before = workspace.document.parts().at(rope_lab);
     const auto stopped = guarded_step<RopePart>(workspace, rope_lab, [&](RopePart& part) {
+        if (!part.start) part.start = before;
         const std::uint64_t substeps = part.world->state().substeps;
         const bool measured = clock.measured || !part.rivals.empty();
         bool rests = true;
@@ -209,6 +211,16 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
+/// Whether links are, taken together, shorter than they rest.
+bool squeezed(const rope::State& state) {
+    double longer = 0.0;  // metres
+    for (const rope::Link& each : state.links)
+        if (each.kind == rope::Link::Kind::Stretch)
+            longer += glm::distance(state.position[each.a], state.position[each.b]) -
+                      static_cast<double>(each.rest);
+    return longer < 0.0;
+}
+
 /// The name of the body with the largest length error.
 const std::string& worst_body(const NamedWorld& world) {
     const auto error = [&](const rope::Body& body) { return world.length_error(body); };
@@ -245,6 +257,12 @@ bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
 
 }  // namespace
 
+Cure restart_cure() {
+    return {"Restart",
+            "Puts everything where the last change left it; undo leads back here",
+            {{"rope.restart", {}}}};
+}
+
 Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // fraction of its length: visibly too long
     if (part.world->state().bodies.empty())
@@ -278,15 +296,19 @@ Verdict rope_verdict(const RopePart& part) {
     for (const RopeSample& each : part.samples) torn += each.report.torn;
     if (torn > 0)
         return {"Torn", Verdict::Kind::Open,
-                count_text(torn, "link") +
-                    " tore within the last ten seconds of motion. Drag the timeline back to see it."};
+                count_text(torn, "link") + " tore in the last ten seconds: drag the timeline back to see it.",
+                part.start ? std::optional(restart_cure()) : std::nullopt};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
-        if (stretches(*part.world))
-            return {"Stretched by " + percent, Verdict::Kind::Open,
-                    worst_body(*part.world) +
-                        " may stretch: its own stretch, or the compliance under Solver, is above 0."};
+        if (stretches(*part.world)) {
+            const bool slack = squeezed(part.world->state());
+            return {
+                (slack ? "Squeezed by " : "Stretched by ") + percent, Verdict::Kind::Open,
+                worst_body(*part.world) +
+                    (slack ? " is longer than the space it has: it unfolds as it moves."
+                           : " may stretch: its own stretch, or the compliance under Solver, is above 0.")};
+        }
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps.",
                 shorter_substeps(part)};
     }

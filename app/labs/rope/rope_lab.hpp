@@ -44,6 +44,8 @@ bool is_attached(const NamedWorld& world, const rope::Body& body);
 void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
 
 const Past& rope_past();
+/// Puts everything where the last change left it.
+Cure restart_cure();
 
 class RopeLab final : public Lab {
   public:

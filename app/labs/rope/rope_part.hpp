@@ -119,8 +119,9 @@ struct RopePart final : Part, RopeRacer {
     std::optional<RopeSelection> selection;
     Jitter jitter;
     RopeView view;
-    int quiet_ticks = 0;            ///< consecutive ticks without noticeable motion
-    std::vector<RopeRacer> rivals;  ///< in a race (race.hpp)
+    int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
+    std::vector<RopeRacer> rivals;      ///< in a race (race.hpp)
+    std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;

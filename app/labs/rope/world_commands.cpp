@@ -29,6 +29,11 @@ void reset(RopeEdit& edit, const Arguments&) {
     if (raced) begin_race(edit.part);
 }
 
+void restart(RopePart& part, const Arguments&) {
+    if (!part.start) throw Refused("nothing has moved since the last change");
+    part = dynamic_cast<const RopePart&>(*part.at_moment(part.start));
+}
+
 /// Opens a scene with its own view. The display settings and the tool stay.
 void take_scene(Workspace& workspace, const Arguments& given) {
     const RopeSceneEntry& entry =
@@ -74,6 +79,8 @@ void add_world_commands(CommandTable& table) {
                            "Removes every rope and collider", clear));
     table.add(
         rope_command("rope.reset", "Reset the Rope lab", {}, "Resets this lab to its first state", reset));
+    table.add(part_command<RopePart>(rope_lab, "rope.restart", "Restart the ropes", {},
+                                     "Puts everything where the last change left it", restart));
     table.add("rope.preset", "Open a rope preset",
               {choice_argument("name", true, "which scene",
                                names(rope_scenes(), [](const auto& each) { return each.name; }))},

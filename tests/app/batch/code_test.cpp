@@ -1,6 +1,5 @@
-// A chain as a C++ program: its text. tests/package/code.cmake compiles and runs it.
+// A chain as a C++ program: its text. tests/package/code.cmake compiles it, runs it and compares its results.
 #include "app/labs/chain/code.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/code_text.hpp"
 
 #include <glm/trigonometric.hpp>
@@ -39,27 +38,6 @@ TEST(Code, EveryFloatHasItsOwnLiteral) {
     }
 }
 
-TEST(Code, EachModeMakesItsOwnCall) {
-    const std::pair<ChainMode, const char*> calls[] = {
-        {ChainMode::Forward, "= chain.forward(target);"},
-        {ChainMode::Backward, "= chain.backward(target);"},
-        {ChainMode::Fixed, "= chain.fixed(target, {.iterations = 9, .tolerance = 0.25f}).outcome;"},
-        {ChainMode::WithIndex, "= chain.with_index(4, target);"},
-        {ChainMode::Reach, "solver.solve(ik::Method::Fabrik, chain, state, target, options);"}};
-    for (const auto& [mode, call] : calls) {
-        ChainPart part = first_chain();
-        part.mode = mode;
-        part.index = 4;
-        part.iterations[2] = 9;
-        part.tolerance = 0.25f;
-        const std::string code = chain_code(part);
-        EXPECT_TRUE(has(code, call));
-        EXPECT_TRUE(has(code, "const glm::vec3 target{7.0f, 0.0f, 0.0f};"));
-        EXPECT_EQ(lacks(code, "tendril/ik/"), mode != ChainMode::Reach);
-        EXPECT_TRUE(code.ends_with("}\n"));
-    }
-}
-
 TEST(Code, OmitsOptionsThatEqualTheLibrarysDefaults) {
     const std::string plain = chain_code(reaching());
     for (const char* option : {"options.pole", "options.snap_back", "options.soft_zone", "options.damping",
@@ -90,57 +68,6 @@ TEST(Code, OmitsOptionsThatEqualTheLibrarysDefaults) {
     EXPECT_TRUE(
         has(code, "limits[4] = {\n        .kind = ik::JointKind::Free,\n        .stiffness = 0.5f,\n    };"));
     EXPECT_TRUE(lacks(code, "limits[0]"));
-}
-
-TEST(Code, IncludesTheSolversState) {
-    ChainPart part = reaching();
-    part.reach.options.pole = glm::vec3(2, 1, 0);
-    EXPECT_TRUE(lacks(chain_code(part), "state.pole"));
-    ChainRuntime runtime;
-    reach_for(part, {2, 2, 0}, runtime);
-    std::string code = chain_code(part);
-    for (const char* said : {"state.pole.valid = true;", "state.pole.pole = {2.0f, 1.0f, 0.0f};",
-                             "state.pole.target = {2.0f, 2.0f, 0.0f};",
-                             "state.pole.joints.push_back(each.position - segments.front().position);"})
-        EXPECT_TRUE(has(code, said));
-    EXPECT_TRUE(lacks(code, "state.limits"));
-    part.reach.limits.resize(7);
-    part.reach.limits[2] = ik::Limit::hinge({0, 0, 1}, 0.0f, 0.1f);
-    reach_for(part, {-2, 2, 0}, runtime);
-    code = chain_code(part);
-    EXPECT_TRUE(has(code, "state.limits.valid = true;"));
-    EXPECT_TRUE(has(code, "state.limits.target = {-2.0f, 2.0f, 0.0f};"));
-}
-
-TEST(Code, ChainsTooShortForTheirModeAreLeftAlone) {
-    ChainPart part = reaching();
-    part.chain = Chain();
-    EXPECT_TRUE(lacks(chain_code(part), "solve("));
-    part.mode = ChainMode::WithIndex;
-    EXPECT_TRUE(lacks(chain_code(part), "with_index("));
-    part.mode = ChainMode::Reach;
-    ASSERT_TRUE(part.chain.add(1.0f));
-    EXPECT_TRUE(lacks(chain_code(part), "solve("));
-}
-
-TEST(Code, WritesLongChainsAsTables) {
-    ChainPart part = reaching();
-    while (part.chain.size() < 64) ASSERT_TRUE(part.chain.add(1.0f));
-    EXPECT_TRUE(lacks(chain_code(part), "segment_numbers"));
-    ASSERT_TRUE(part.chain.add(1.0f));
-    EXPECT_TRUE(
-        has(chain_code(part), "static const float segment_numbers[] = {\n    0.0f, 0.0f, 0.0f, 1.0f,\n"));
-}
-
-TEST(Code, BuildsAStudiedChainAtTheStudysStart) {
-    ChainPart part = reaching();
-    part.study.begin(Study::Kind::Microscope, Study::From::Here, part.chain, part.reach);
-    const std::string before = chain_code(part);
-    const glm::vec3 target = part.target;
-    ChainRuntime runtime;
-    reach_for(part, {1, 3, 1}, runtime);
-    part.target = target;
-    EXPECT_EQ(chain_code(part), before);
 }
 
 TEST(Code, TheProgramPrintsTheOpenLabsCodeAndRefusesWhatIsNoScene) {

@@ -37,7 +37,7 @@ int count_in(const std::vector<bool>& pixels, int width, glm::ivec2 from, glm::i
     return count;
 }
 
-TEST(RacePicture, HasItsLegendUnlessSwitchedOff) {
+TEST(RacePicture, HasItsLegendAndPlotUnlessSwitchedOff) {
     const TempFolder folder;
     ScriptText script = opened_race();
     script.command("view.picture", sized(folder / "default.png"));
@@ -50,10 +50,11 @@ TEST(RacePicture, HasItsLegendUnlessSwitchedOff) {
     EXPECT_EQ(picture("default.png").rgba, picture("with.png").rgba) << "on while a race is open";
     EXPECT_EQ(picture("closed.png").rgba, picture("closed_without.png").rgba) << "else off";
     const std::vector<bool> pixels = differing(picture("with.png"), picture("without.png"));
-    const int all = count_in(pixels, 800, {0, 0}, {800, 600});
-    EXPECT_GT(all, 2000);
-    EXPECT_GT(count_in(pixels, 800, {0, 360}, {500, 600}), all / 2) << "the legend, in its corner";
-    EXPECT_LT(count_in(pixels, 800, {0, 360}, {500, 600}), all) << "and the names at the tips";
+    const int legend = count_in(pixels, 800, {0, 360}, {500, 600});
+    const int plot = count_in(pixels, 800, {500, 0}, {800, 210});
+    EXPECT_GT(legend, 1000) << "in its corner";
+    EXPECT_GT(plot, 1000) << "in the opposite one";
+    EXPECT_LT(legend + plot, count_in(pixels, 800, {0, 0}, {800, 600})) << "and the names at the tips";
 }
 
 TEST(RacePicture, HasItsLegendWhereItCoversNoChain) {

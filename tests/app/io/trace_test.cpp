@@ -127,7 +127,7 @@ TEST(Trace, OfAFlipThatNoSolverHasItReportsWhetherOneReaches) {
     const Conventions metres;
     const Prevention pole{
         .kind = Prevention::Kind::Pole, .solve = {.pole_by = {0.042f, 0, 0}}, .pole = glm::vec3(1, 2, 3)};
-    EXPECT_EQ(pole.text(metres), "pole target moved by 42.0 mm, to (1.000, 2.000, 3.000) m");
+    EXPECT_EQ(pole.text(metres), "pole target moved by 0.042 m, to (1.000, 2.000, 3.000) m");
 }
 
 TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {
@@ -346,7 +346,7 @@ TEST(Trace, WithoutATargetNoneIsReported) {
         const ReadTrace found = read_trace(text);
         for (const TracedIncident& each : found.incidents())
             EXPECT_TRUE(each.kind != ik::IncidentKind::TargetJump && !test::says(each.cause, "target"))
-                << "seed " << seed << ": " << each.text({});
+                << "seed " << seed << ": " << each.cause;
     }
 }
 
@@ -453,7 +453,8 @@ TEST(Trace, EmptyCellsAreNoTargetOrNaN) {
         read_trace(head + "0.1,0,1,0,1,1,0,,,\n0.2,0,1,0,,,,1,1,0\n0.3,0,1,0,1,1,0,1,1,0\n");
     EXPECT_EQ(found.findings.chains[0].frames, 4u);
     ASSERT_EQ(found.incidents().size(), 1u) << found.text();
-    EXPECT_TRUE(test::says(found.incidents()[0].text(found.bones), "Frame 2: NaN at joint 1 (b)"));
+    EXPECT_TRUE(test::says(found.incidents()[0].title(found.bones, found.conventions),
+                           "Frame 2: NaN at joint 1 (b)"));
 }
 
 TEST(Trace, TheWholeChainScaledOrUnwrittenOrFrozenIsOneIncident) {

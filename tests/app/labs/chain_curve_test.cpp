@@ -1,7 +1,6 @@
 // Mode Curve, by the lab's own commands and the mouse; and the causes of flips.
 #include <fstream>
 
-#include "app/labs/chain/code.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/random_numbers.hpp"
@@ -175,15 +174,6 @@ TEST_F(ChainCurve, AJumpIsAnIncidentWithItsCause) {
     EXPECT_TRUE(test::says(all.front().cause, "the joint went"));
     EXPECT_GT(least, 0.15f);
     EXPECT_TRUE(moved(loop(0.2)).empty()) << "a curve at rest does not jump";
-}
-
-TEST_F(ChainCurve, ItsCodePlacesTheGivenChain) {
-    run("chain.preset", {{"name", "spine"}});
-    const std::string code = chain_code(part());
-    for (const char* const said : {"tendril/ik/curve.hpp", "options.fit = true;",
-                                   "options.roll_end = 0.6981317f;", "ik::place_along("})
-        EXPECT_TRUE(test::has(code, said));
-    EXPECT_FALSE(test::has(code, "glm::vec3 target"));
 }
 
 // The mouse.

@@ -1,7 +1,6 @@
 // Mode Reach: effects of each command, refusals, and the text for an active limit.
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/chain/code.hpp"
 #include "app/labs/kit/code_text.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
@@ -363,16 +362,6 @@ TEST_F(ChainPlaneTest, PresetsReachTheirTargetsOrNameTheActiveLimit) {
     target(0.2f, 2.6f);
     ASSERT_EQ(part().result->report.status, ik::Status::Limited);
     EXPECT_TRUE(part().result->active_limit);
-}
-
-TEST_F(ChainPlaneTest, CodeHasThePlane) {
-    run("chain.preset", {{"name", "flat_mixed"}});
-    run("chain.bend", {{"side", "left"}});
-    const std::string code = chain_code(part());
-    for (const char* const each :
-         {"options.plane = ik::Plane{glm::vec3{0.0f, 0.0f, 1.0f}, ik::Side::Left, angle_limits};",
-          "ik::AngleFrom::Base}"})
-        EXPECT_TRUE(test::has(code, each));
 }
 
 // The mouse: the ends of a limit's arc.

@@ -202,7 +202,7 @@ TEST_F(ChainStudy, TheRaceIsWrittenAsCsvAndTheChainAsCodeAndAsAScene) {
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m");
+    EXPECT_EQ(line, "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m");
     std::size_t rows = 0, expected = 0;
     while (std::getline(lines, line)) rows += line.empty() ? 0 : 1;
     for (const Racer& racer : race()->racers) {

@@ -9,6 +9,7 @@
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -60,6 +61,12 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     run("time.incident", {{"number", 0}});
     EXPECT_TRUE(workspace.ui.incident);
     EXPECT_EQ(workspace.moment, made.frame);
+    // In a row too narrow for all of it, the amount stays.
+    workspace.rewind.note(
+        {.cause = "the pole",
+         .title = "Frame 1: flip at joint 1 (a_bone_whose_name_leaves_no_room), 57 degrees"});
+    EXPECT_NE(test::PanelReader().inspector(lab(), workspace).find("Frame 1: flip at joint 1, 57 degrees"),
+              std::string::npos);
 }
 
 TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
@@ -89,8 +96,9 @@ TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {
         *made.frames[i].pole += by;
     }
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
-    run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}});
+    run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}, {"pole_by", {0, 0.02, 0}}});
     const std::string code = chain_code(part());
+    EXPECT_NE(code.find("Its pole target is 2 cm from the trace's."), code.npos) << code;
     EXPECT_NE(code.find("Z up, left-handed, centimetres"), code.npos) << code;
     EXPECT_NE(code.find("options.soft_zone = 0.05f;"), code.npos) << code;
     EXPECT_NE(code.find("limits[1]"), code.npos) << code;

@@ -1,7 +1,5 @@
 // Quasi-static drags in the Rope lab use the lab's own runtime, and no bit depends on it.
-#include <fstream>
 #include <random>
-#include <regex>
 
 #include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/rope_support.hpp"
@@ -9,8 +7,6 @@
 
 namespace tendril::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 class RopeDrag : public RopeTest {};
 
@@ -34,23 +30,6 @@ TEST_F(RopeDrag, DiscardingTheRuntimeChangesNoBitOfAPausedDrag) {
     }
     EXPECT_TRUE(ends[0] == ends[2]);
     EXPECT_TRUE(ends[1] == ends[3]) << "and time goes on the same";
-}
-
-/// A mouse drag moves a hundred times per second, so its workspace is created only once.
-TEST_F(RopeDrag, OnlyRuntimesMakeAWorkspaceOfTheLibrarys) {
-    const std::regex made(R"(rope::Workspace\s+\w+\s*[;{=(]|rope::Workspace\s*[({])");
-    int found = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(tendril::test::source_path("app"))) {
-        if (!entry.is_regular_file() || !entry.path().string().ends_with("pp")) continue;
-        std::ifstream in(entry.path());
-        for (std::string line; std::getline(in, line);) {
-            if (!std::regex_search(line, made) || line.find("say(") != line.npos) continue;  // exported code
-            ++found;
-            const auto file = entry.path().filename();
-            EXPECT_TRUE(file == "rope_time.hpp" || file == "humanoid_runtime.hpp") << file << ": " << line;
-        }
-    }
-    EXPECT_EQ(found, 2);
 }
 
 // Several particles dragged by one gizmo: pins move, free particles are held until released.

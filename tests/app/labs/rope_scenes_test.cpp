@@ -1,6 +1,5 @@
 // Every scene of the Rope lab for 12 seconds at its own settings: it keeps its lengths and stays in place. Of
 // 14 that were measured for a minute, none was more than 0.05 % worse later.
-#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
@@ -192,19 +191,6 @@ TEST_F(RopeCollisionTest, TheInspectorHasAButtonForItselfAndOneForAll) {
         run("rope.select", {{"rope", body}, {"particle", 3}});
         EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself Hits all"));
     }
-}
-
-TEST_F(RopeCollisionTest, IsInTheCode) {
-    crossed();
-    collide("all", "all");
-    wait(40);
-    ASSERT_GT(state()["contacts"], 0);
-    EXPECT_TRUE(test::says(rope_code(part()),
-                           "rope::number_slots state.collisions.push_back({state.bodies[0].id, "
-                           "state.bodies[0].id}) state.contacts.push_back .force"));
-    RopePart of_defaults;
-    of_defaults.world = std::make_shared<NamedWorld>();
-    EXPECT_TRUE(test::says(rope_code(of_defaults), "state.settings = {};"));
 }
 
 TEST_F(RopeCollisionTest, Refusals) {

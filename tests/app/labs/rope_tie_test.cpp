@@ -2,7 +2,6 @@
 #include <sstream>
 #include <utility>
 
-#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
@@ -148,13 +147,6 @@ TEST_F(RopeTieTest, IsRemovedWithItsBody) {
     EXPECT_EQ(state()["ties"][0]["name"], "second");
     run("rope.untie", {{"name", "second"}});
     EXPECT_EQ(state()["ties"], Json::array());
-}
-
-TEST_F(RopeTieTest, IsInTheCode) {
-    run("rope.preset", {{"name", "line"}});
-    wait(40);
-    EXPECT_TRUE(
-        test::says(rope_code(part()), "\"tie\" state.ties.push_back .length 0.04f rope::number_slots"));
 }
 
 TEST_F(RopeTieTest, Refusals) {

@@ -49,6 +49,9 @@ TEST_F(RopeVerdict, OfElasticRopesAsksForNothing) {
         wait(120);
         EXPECT_TRUE(said().starts_with("Stretched by ")) << how << ": " << said();
         EXPECT_TRUE(test::says(state()["why"], "line stretch compliance"));
+        workspace.document.edit<RopePart>(rope_lab).samples.clear();
+        run("rope.set", {{"rope", "line"}, {"length", 2}});
+        EXPECT_TRUE(said().starts_with("Squeezed by ")) << how << ": " << said();
     }
 }
 

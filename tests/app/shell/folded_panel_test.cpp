@@ -244,6 +244,48 @@ TEST_F(CureButton, HalvesTheSubstepOfARopeThatStretches) {
     EXPECT_NEAR(substep(), 0.5 * before, 1e-12);
 }
 
+TEST_F(CureButton, RestartsARopeThatTore) {
+    run("lab.open", {{"name", "rope"}});
+    run("rope.clear");
+    run("rope.add", {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", 8}});
+    run("rope.set", {{"rope", "line"}, {"tear", 0.1}});
+    run("time.play");
+    run("rope.pin", {{"rope", "line"}, {"particle", 0}});
+    run("rope.pin", {{"rope", "line"}, {"particle", 8}, {"at", {2.5, 2, 0}}});
+    wait(60);
+    run("time.pause");
+    ASSERT_EQ(verdict(), "Torn");
+    click(at("Restart"));
+    EXPECT_EQ(app_.state().at("ropes").size(), 1u);
+    EXPECT_THROW(run("rope.restart"), app::Refused) << "nothing has moved since";
+    run("undo");
+    EXPECT_EQ(verdict(), "Torn");
+}
+
+/// As a person expects of a chain that reaches, though the command alone leaves the tip where it is.
+TEST_F(CureButton, IsNotNeededForAJointMore) {
+    run("chain.reset");
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("view.fold", {{"section", "chain: Joints"}, {"folded", false}});
+    const std::size_t joints = app_.state().at("segments").size();
+    click(at("Add"));
+    EXPECT_EQ(app_.state().at("segments").size(), joints + 1);
+    EXPECT_EQ(verdict(), "Reached");
+    run("undo");
+    EXPECT_EQ(app_.state().at("segments").size(), joints);
+}
+
+TEST_F(CureButton, HasNoTooltipUnderThePalette) {
+    run("lab.open", {{"name", "chain"}});
+    take(app::MouseMove{at("Arm")});
+    const auto told = [&] { return seen("7 joints").has_value(); };
+    wait(30);
+    EXPECT_TRUE(told());
+    key("ctrl+k");
+    EXPECT_FALSE(told());
+}
+
 /// Also with a joint selected, whose rows would push it out of a small window.
 TEST_F(CureButton, OfAFlipIsVisibleOnceItsMarkIsClicked) {
     run("chain.preset", {{"name", "reaching_arm"}});

@@ -79,6 +79,7 @@ TEST_F(Explained, EndsWithTheRangeAndTheUnitOfTheField) {
     EXPECT_EQ(of_number(0.0f, 80.0f, "%.0f\u00b0"), "What it does. 0 to 80\u00b0.");
     EXPECT_EQ(of_number(0.0f, 100.0f, "%.0f %%"), "What it does. 0 to 100 %.");
     EXPECT_EQ(of_number(0.0f, 1e9f, "%.1f\u00b0/s, no limit"), "What it does. 0\u00b0/s or more.");
+    EXPECT_EQ(of_number(1e-6f, 1e9f, "%.3f m"), "What it does. More than 0 m.");
     EXPECT_EQ(of_number(-1e9f, 1e9f, "%.3f m"), "What it does. In metres.");
     EXPECT_EQ(of_number(-1e9f, 1e9f, "%.3f"), "What it does.");
 }

@@ -235,24 +235,6 @@ TEST_F(RigCode, WritesOnlyWhatDiffersFromTheDefaults) {
     for (const char* said : {".propagate = false", ".weight = 0.5", ".enabled = false"}) expect_says(said);
 }
 
-TEST_F(RigCode, IncludesSetValuesAndMemory) {
-    run("rig.preset", {{"name", "secondary"}});
-    expect_silent_about("state.controls");
-    set("head", transform(0.5, 1, 0));
-    run("rig.element.set", {{"name", "left 2"}, {"transform", transform(0, 0.25, 0)}});
-    tick(5);
-    expect_says(
-        "state.controls[*made->element(\"head\")] = rig::Value(rig::Transform{.translation = {0.5, 1.0, "
-        "0.0}");
-    expect_says("state.elements.put(id(\"left 2\"), rig::Space::Local");
-    expect_says("signal::SpringState<glm::dvec3>{.value = {");
-}
-
-TEST_F(RigCode, NamesAreWrittenSoThatTheyReadBack) {
-    element("a \"b\" \\");
-    expect_says(R"(.name = "a \"b\" \\")");
-}
-
 // Numeric cases from an independent implementation, through the lab's own commands. Skipped if the files are
 // missing; the other tests do not need them.
 
