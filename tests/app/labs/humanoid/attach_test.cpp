@@ -125,6 +125,24 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
     }
 }
 
+/// Skin of the hips that reached out of the colliders by more than half a cape would show through it.
+TEST_F(HumanoidAttach, CollidersCoverTheSeat) {
+    dress();
+    tick();
+    double out = 0.0;
+    for (const humanoid::SkinPoint& each :
+         skin_points(part().loaded->character.skin, shown_pose(workspace).placed)) {
+        if (each.node != part().node_of(humanoid::Bone::Hips)) continue;
+        double nearest = 1.0;
+        for (const rope::Collider& there : world().state().colliders)
+            if (const auto* at = std::get_if<rope::Capsule>(&there.shape))
+                nearest = std::min(
+                    nearest, humanoid::gap({at->a, at->b, at->radius}, {each.position, each.position, 0.0}));
+        out = std::max(out, nearest);
+    }
+    EXPECT_LT(out, body("cape").radius);
+}
+
 /// Hands that grip a rifle bring the arms close to the trunk, and the rifle close to the cape.
 TEST_F(HumanoidAttach, IsNotTornByArmsThatCloseOnTheTrunk) {
     for (const auto& [file, size, before] :
