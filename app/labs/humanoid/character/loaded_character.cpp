@@ -32,11 +32,20 @@ void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips)
     std::vector<humanoid::Clip>& clips = character.clips;
     const auto place = std::ranges::find(clips, edit.clip->name, &humanoid::Clip::name);
     const bool own = place < clips.begin() + static_cast<std::ptrdiff_t>(own_clips);
-    humanoid::Clip clip = edit.as.scale == character.scale && edit.as.space == character.space
-                              ? *edit.clip
-                              : read_as_now(*edit.clip, edit.as.scale, edit.as.space, character, own);
-    if (place == clips.end()) return clips.push_back(std::move(clip));
-    loaded.unfixed.try_emplace(clip.name, std::make_shared<const humanoid::Clip>(std::move(*place)));
+    const auto now = [&](const humanoid::Clip& clip) {
+        return edit.as.scale == character.scale && edit.as.space == character.space
+                   ? clip
+                   : read_as_now(clip, edit.as.scale, edit.as.space, character, own);
+    };
+    const auto keep = [&](humanoid::Clip before) {
+        loaded.unfixed.try_emplace(edit.clip->name, std::make_shared<const humanoid::Clip>(std::move(before)));
+    };
+    if (place == clips.end()) {
+        if (edit.unfixed) keep(now(*edit.unfixed));
+        return clips.push_back(now(*edit.clip));
+    }
+    humanoid::Clip clip = now(*edit.clip);
+    keep(std::move(*place));
     *place = std::move(clip);
 }
 

@@ -61,6 +61,7 @@ struct ClipEdit {
     std::variant<LoadedMotion, ClipCure> what;
     Reading as{};                                ///< the settings when it was made
     std::shared_ptr<const humanoid::Clip> clip;  ///< in the metres and axes of `as`
+    std::shared_ptr<const humanoid::Clip> unfixed{};  ///< a motion without the fixes made on it; null: it has none
 };
 
 /// Without a file it is the stick figure.
