@@ -80,6 +80,7 @@ struct HumanoidPart final : Part {
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
     const humanoid::Clip* clip() const;  ///< null if none is chosen
+    bool shows_fixes() const { return clip() != nullptr && loaded->unfixed.contains(clip()->name); }
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
     /// A node's name for the user: its bone's name, else its own.

@@ -239,7 +239,9 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     if (waiting) return name + ": click makes it the " + humanoid::name(*waiting) + ".";
     const auto bone = part.bone_of(*node);
     return name +
-           (bone ? std::string(", the ") + humanoid::name(*bone) : std::string(", not a bone of the body")) +
+           (!bone                           ? std::string(", not a bone of the body")
+            : name == humanoid::name(*bone) ? std::string()
+                                            : std::string(", the ") + humanoid::name(*bone)) +
            ": click selects it.";
 }
 

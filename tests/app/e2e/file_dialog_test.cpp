@@ -140,7 +140,7 @@ TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
         wait(4);
     };
     drop();
-    EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it alone Cancel"));
+    EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it on its own Cancel"));
     key("escape");
     EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
     EXPECT_TRUE(app_.state().at("clip").is_null() || app_.state().at("clip").at("name") != "motion");
@@ -149,7 +149,7 @@ TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
     EXPECT_EQ(app_.state().at("clip").at("name"), "motion");
     EXPECT_EQ(character(), before);
     drop();
-    click(at("Open it alone"));
+    click(at("Open it on its own"));
     EXPECT_EQ(character(), motion);
     EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
 }

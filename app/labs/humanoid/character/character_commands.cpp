@@ -357,15 +357,15 @@ std::vector<FileWay> HumanoidLab::file_ways(const Workspace& workspace,
     if (loaded.file.empty() || !part.map->is_usable() || !ends_as_character(file)) return {};
     const std::string before = std::filesystem::path(loaded.file).filename().string();
     const bool shows_motion = !loaded.character.skin.mesh && part.clip() != nullptr;
-    const FileWay alone{"Open it alone", "Replaces " + before, "humanoid.load"};
+    const FileWay alone{"Open it on its own", "Replaces " + before, "humanoid.load"};
     if (is_bare_motion(file) != shows_motion) {
         if (!shows_motion)
             return {{"Play it on the figure", "A clip for " + before + ", by the bone maps",
                      "humanoid.motion.load"},
                     alone};
-        return {
-            {"Play \"" + part.clip()->name + "\" on it", "With the fixes made on it", "humanoid.motion.take"},
-            alone};
+        return {{"Play \"" + part.clip()->name + "\" on it", "With its fixes, if it has any",
+                 "humanoid.motion.take"},
+                alone};
     }
     return {};
 }

@@ -280,7 +280,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
         go_to_finding(panel, finding);
     const std::string why =
         finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
-    explain((where + ": " + finding.text + why).c_str());
+    explain((finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
@@ -326,10 +326,10 @@ static void findings_rows(const HumanoidPanel& panel) {
     const std::vector<Finding>& findings = report->findings;
     if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
-         fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
+         fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " fps");
     const bool any = std::ranges::any_of(findings, &Finding::has_cure);
     if (row_button("Fix all", 1, any,
-                   any ? "Fixes all that can be fixed, as one step to undo; says why not"
+                   any ? "Fixes what has a fix, as one undo step, and says why for the rest"
                        : "None has a fix; each one's tooltip says why"))
         panel.emit("humanoid.cure", {});
     end_row();
