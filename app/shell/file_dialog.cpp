@@ -128,9 +128,8 @@ bool FileDialog::list() {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
                                ImGuiSelectableFlags_AllowDoubleClick)) {
-            explain(entry.folder              ? "Shows what is in this folder"
-                    : saving() || picturing() ? "Uses this file's name"
-                                              : "Double click opens it");
+            explain(entry.folder ? "Shows what is in this folder"
+                                 : "Uses this file's name; a double click is enough");
             continue;
         }
         if (entry.folder) {

@@ -308,12 +308,6 @@ class Drawing {
         }
     }
 
-    std::string text_of(std::size_t i) const {
-        const std::string& name = part_.skeleton()[i].name;
-        const auto bone = part_.bone_of(i);
-        if (!bone || name == humanoid::name(*bone)) return name;
-        return name + " (" + humanoid::name(*bone) + ")";
-    }
     void labels() {
         const bool always = view_.workspace.settings.labels == LabelMode::Always;
         const std::size_t stride = part_.skeleton().size() / max_labels + 1;
@@ -332,7 +326,7 @@ class Drawing {
             if (!marks && !(always && body_[i] && i % stride == 0)) continue;
             list_.labels.push_back({.at = shown_.point(i),
                                     .clearance = px(10.0f),
-                                    .text = text_of(i),
+                                    .text = part_.titled(i),
                                     .colour = view_.palette.text,
                                     .rank = lit(i)  ? 2
                                             : marks ? 1

@@ -32,6 +32,15 @@ std::string HumanoidPart::called(std::size_t node) const {
     return bone ? humanoid::name(*bone) : skeleton()[node].name;
 }
 
+std::string HumanoidPart::titled(std::size_t node) const {
+    const std::string& name = skeleton()[node].name;
+    return called(node) == name ? name : name + " (" + called(node) + ')';
+}
+
+std::vector<std::string> HumanoidPart::unmapped() const {
+    return bone_names([&](std::size_t i) { return map->bones[i].node < 0; });
+}
+
 std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (map->bones[i].node == static_cast<std::int32_t>(node)) return static_cast<Bone>(i);

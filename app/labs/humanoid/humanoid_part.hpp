@@ -85,6 +85,8 @@ struct HumanoidPart final : Part {
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
     /// A node's name for the user: its bone's name, else its own.
     std::string called(std::size_t node) const;
+    std::string titled(std::size_t node) const;  ///< "LeftLeg (LeftLowerLeg)"
+    std::vector<std::string> unmapped() const;   ///< bones
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
     Json save() const override;
@@ -129,6 +131,14 @@ template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HumanoidView>();
 
 namespace tendril::app {
+
+/// Names of the bones for whose index `is` holds.
+std::vector<std::string> bone_names(auto is) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (is(i)) names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
+    return names;
+}
 
 // Selected nodes. Files and commands store names, because another skeleton may have the same ones.
 

@@ -396,10 +396,7 @@ void finish_loading(Workspace& workspace) {
 }
 
 std::vector<std::string> bone_names() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
-    return names;
+    return bone_names([](std::size_t) { return true; });
 }
 
 std::size_t node_named(const HumanoidPart& part, const std::string& name) {
@@ -490,13 +487,9 @@ void load_map(HumanoidPart& part, const Arguments& given) {
 
 /// The named clip, else the chosen one, else the first.
 std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
-    const std::vector<Clip>& clips = part.loaded->clips();
-    if (clips.empty()) throw std::invalid_argument("the character has no clips");
+    if (part.loaded->clips().empty()) throw std::invalid_argument("the character has no clips");
     const std::string name = text_or_none(given, "clip");
-    if (name.empty()) return part.playback.clip.value_or(0);
-    const auto found = std::ranges::find(clips, name, &Clip::name);
-    if (found == clips.end()) throw std::invalid_argument("the character has no clip \"" + name + "\"");
-    return static_cast<std::size_t>(found - clips.begin());
+    return name.empty() ? part.playback.clip.value_or(0) : part.loaded->clip_called(name);
 }
 
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,

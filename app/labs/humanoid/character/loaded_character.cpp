@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "app/io/character/read.hpp"
@@ -38,7 +39,8 @@ void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips)
                    : read_as_now(clip, edit.as.scale, edit.as.space, character, own);
     };
     const auto keep = [&](humanoid::Clip before) {
-        loaded.unfixed.try_emplace(edit.clip->name, std::make_shared<const humanoid::Clip>(std::move(before)));
+        loaded.unfixed.try_emplace(edit.clip->name,
+                                   std::make_shared<const humanoid::Clip>(std::move(before)));
     };
     if (place == clips.end()) {
         if (edit.unfixed) keep(now(*edit.unfixed));
@@ -50,6 +52,12 @@ void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips)
 }
 
 }  // namespace
+
+std::size_t LoadedCharacter::clip_called(const std::string& name) const {
+    const auto found = std::ranges::find(clips(), name, &humanoid::Clip::name);
+    if (found != clips().end()) return static_cast<std::size_t>(found - clips().begin());
+    throw std::invalid_argument("the character has no clip \"" + name + "\"");
+}
 
 const humanoid::Clip& LoadedCharacter::clip_unfixed(std::size_t clip) const {
     const auto before = unfixed.find(clips()[clip].name);

@@ -182,10 +182,8 @@ void require_cure_in_clip(const HumanoidPart& part, const ClipCure& cure, const 
 }
 
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress) {
-    const std::vector<Clip>& clips = part.loaded->clips();
-    const auto place = std::ranges::find(clips, cure.clip, &Clip::name);
-    if (place == clips.end()) throw std::invalid_argument("the character has no clip \"" + cure.clip + "\"");
-    Clip clip = *place;
+    const Clip& place = part.loaded->clips()[part.loaded->clip_called(cure.clip)];
+    Clip clip = place;
     const std::optional<BodyLimits> limits = limits_for(part);
     const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
     // Each cure leaves fewer findings, so that this ends. What could not be cured is tried once more after
@@ -218,7 +216,7 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     }
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
-    if (clip == *place) {
+    if (clip == place) {
         if (left.empty()) throw std::invalid_argument("clip " + cure.clip + " has no such fault");
         throw std::invalid_argument(cured_text(part, JudgedClip::Clip, cure.clip, 0, now, left));
     }

@@ -144,17 +144,12 @@ std::string in_words(const JointNow& joint) {
 
 using Joints = std::vector<Bone>;
 
-Json names_of(const Joints& joints) {
-    Json list = Json::array();
-    for (const Bone bone : joints) list.push_back(humanoid::name(bone));
-    return list;
-}
-
 /// Arguments of a command that sets where the joints take their limits from.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
-    const NamedArgument which = joints.size() == 1 ? NamedArgument{"bone", humanoid::name(joints.front())}
-                                                   : NamedArgument{"bones", SharedJson(names_of(joints))};
-    return {{"from", limits_from.name(from)}, which};
+    const auto all = names(joints, [](Bone each) { return humanoid::name(each); });
+    return {
+        {"from", limits_from.name(from)},
+        all.size() == 1 ? NamedArgument{"bone", all.front()} : NamedArgument{"bones", SharedJson(Json(all))}};
 }
 
 /// Chooses the source of the limits. Each joint uses its own range from it, about its own axes.
