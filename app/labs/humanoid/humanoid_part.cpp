@@ -18,10 +18,6 @@ HumanoidPart::HumanoidPart() : HumanoidPart(load_character({})) {}
 HumanoidPart::HumanoidPart(SharedCharacter character)
     : loaded(std::move(character)), map(std::make_shared<const BoneMap>(loaded->matched)) {}
 
-const humanoid::Clip* HumanoidPart::clip() const {
-    return playback.clip ? &loaded->clips()[*playback.clip] : nullptr;
-}
-
 std::optional<std::size_t> HumanoidPart::node_of(Bone bone) const {
     const std::int32_t node = (*map)[bone].node;
     return node < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(node));

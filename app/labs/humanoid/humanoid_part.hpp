@@ -79,7 +79,8 @@ struct HumanoidPart final : Part {
     FlipRule flips;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
-    const humanoid::Clip* clip() const;  ///< null if none is chosen
+    /// Null if none is chosen.
+    const humanoid::Clip* clip() const { return playback.clip ? &loaded->clips()[*playback.clip] : nullptr; }
     bool shows_fixes() const { return clip() != nullptr && loaded->unfixed.contains(clip()->name); }
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;

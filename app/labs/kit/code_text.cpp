@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 
@@ -42,9 +43,7 @@ std::string braced(const glm::dquat& value) {
 }
 
 std::string joined(const std::vector<std::string>& texts) {
-    std::string all;
-    for (const std::string& each : texts) all += (all.empty() ? "" : ", ") + each;
-    return all;
+    return comma_list(texts);
 }
 
 std::string string_text(std::string_view text) {
