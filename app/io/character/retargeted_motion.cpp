@@ -17,7 +17,7 @@ constexpr double hardly_sure = 0.8;  // bones below this confidence are reported
 /// "Chest, Toes": left and right as one, if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
     constexpr std::string_view left = "Left", right = "Right";
-    std::string text;
+    std::vector<std::string> all;
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(bones, [&](humanoid::Bone each) { return humanoid::name(each) == name; });
     };
@@ -26,9 +26,9 @@ std::string bone_names(const std::vector<humanoid::Bone>& bones) {
         if (name.starts_with(right) && has(std::string(left).append(name, right.size()))) continue;
         if (name.starts_with(left) && has(std::string(right).append(name, left.size())))
             name.erase(0, left.size());
-        text += (text.empty() ? "" : ", ") + name;
+        all.push_back(std::move(name));
     }
-    return text;
+    return comma_list(all);
 }
 
 /// One line on the parts of a motion that were not retargeted.

@@ -178,10 +178,9 @@ void show_all(Workspace& workspace) {
 /// What loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if the user
 /// made nothing. `keeps_clip`: the chosen clip goes along, with its fixes and the bones that it was read by.
 std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
-    std::string text;
+    std::vector<std::string> all;
     const auto add = [&](std::size_t count, const char* one, const char* many) {
-        if (count == 0) return;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + (count == 1 ? one : many);
+        if (count > 0) all.push_back(std::to_string(count) + ' ' + (count == 1 ? one : many));
     };
     std::vector<ClipEdit> edits = part.loaded->edits;
     if (keeps_clip)
@@ -196,12 +195,12 @@ std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
         "target", "targets");
     add(part.curves.size(), "curve", "curves");
     // The built-in figure's attachments and IK may be the opening's.
-    if (part.loaded->file.empty()) return text;
+    if (part.loaded->file.empty()) return comma_list(all);
     add(part.attachments.list.size(), "attachment", "attachments");
     IkSettings rest = part.ik;
     rest.targets = {};
-    if (!(rest == IkSettings())) text += (text.empty() ? "" : ", ") + std::string("IK settings");
-    return text;
+    if (!(rest == IkSettings())) all.emplace_back("IK settings");
+    return comma_list(all);
 }
 
 /// `plays`: on it plays the clip of the character before it.

@@ -13,6 +13,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
@@ -146,10 +147,8 @@ using Joints = std::vector<Bone>;
 
 /// Arguments of a command that sets where the joints take their limits from.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
-    const auto all = names(joints, [](Bone each) { return humanoid::name(each); });
-    return {
-        {"from", limits_from.name(from)},
-        all.size() == 1 ? NamedArgument{"bone", all.front()} : NamedArgument{"bones", SharedJson(Json(all))}};
+    return {{"from", limits_from.name(from)},
+            one_or_list("bone", "bones", names(joints, [](Bone each) { return humanoid::name(each); }))};
 }
 
 /// Chooses the source of the limits. Each joint uses its own range from it, about its own axes.
