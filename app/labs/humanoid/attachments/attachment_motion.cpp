@@ -58,8 +58,8 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& wo
         if (!joined_part(each.bone)) hard.push_back(placed.back());
     }
     // Capsules along bones do not cover the seat of a skin, which then shows through a cape: one more, from
-    // joint to joint of the legs. Its ends and radius leave at most 6 mm of the built-in figure outside. A
-    // stick figure has no seat, and a cape that a jump throws across its legs finds nothing to hang on.
+    // leg to leg, leaves at most 6 mm of the built-in figure outside. On a stick figure a cape would only
+    // catch.
     using enum humanoid::Bone;
     const auto of = [&](humanoid::Bone bone) {
         return std::ranges::find(wearer.capsules, bone, &humanoid::BodyCapsule::bone);

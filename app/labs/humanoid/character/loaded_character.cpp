@@ -38,17 +38,12 @@ void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips)
                    ? clip
                    : read_as_now(clip, edit.as.scale, edit.as.space, character, own);
     };
-    const auto keep = [&](humanoid::Clip before) {
-        loaded.unfixed.try_emplace(edit.clip->name,
-                                   std::make_shared<const humanoid::Clip>(std::move(before)));
-    };
-    if (place == clips.end()) {
-        if (edit.unfixed) keep(now(*edit.unfixed));
-        return clips.push_back(now(*edit.clip));
-    }
-    humanoid::Clip clip = now(*edit.clip);
-    keep(std::move(*place));
-    *place = std::move(clip);
+    const bool added = place == clips.end();
+    if (!added || edit.unfixed)
+        loaded.unfixed.try_emplace(
+            edit.clip->name, std::make_shared<const humanoid::Clip>(added ? now(*edit.unfixed) : *place));
+    if (added) return clips.push_back(now(*edit.clip));
+    *place = now(*edit.clip);
 }
 
 }  // namespace
