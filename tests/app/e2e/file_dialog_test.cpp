@@ -46,7 +46,7 @@ TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     key("ctrl+shift+p");
     click({700.0f, at("shows").y});
     click(at("a full turn of the camera"));
-    click({700.0f, at("frames of the turn").y});
+    click({700.0f, at("turn, frames").y});
     key("ctrl+a");
     type("3");
     key("enter");
