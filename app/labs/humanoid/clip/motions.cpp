@@ -62,10 +62,9 @@ PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, c
     LoadedMotion made{from, wanted.name, std::move(motion.notes)};
     if (from.source || !corrections_of(*source.map, from).empty())
         made.source = source.loaded, made.source_as = reading_of(source);
-    played.loaded =
-        edited(part.loaded,
-               {std::move(made), reading_of(part), std::make_shared<const Clip>(std::move(motion.clip)),
-                fixed ? std::make_shared<const Clip>(retargeted(*before->second).clip) : nullptr});
+    played.loaded = edited(
+        part.loaded, {std::move(made), reading_of(part), std::make_shared<const Clip>(std::move(motion.clip)),
+                      fixed ? std::make_shared<const Clip>(retargeted(*before->second).clip) : nullptr});
     return played;
 }
 
