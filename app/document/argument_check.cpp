@@ -18,12 +18,6 @@ std::string plain(double value) {
     return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
-
 /// A finite number of at most 1e9 in magnitude: required of all input.
 bool sane(const Json& value) {
     if (!value.is_number()) return false;
@@ -104,7 +98,7 @@ void check_value(const Argument& argument, const Json& value, const std::string&
                 refuse("text in UTF-8, without U+FFFD");
             if (!argument.choices.empty() && std::find(argument.choices.begin(), argument.choices.end(),
                                                        value.get<std::string>()) == argument.choices.end()) {
-                refuse("one of " + joined(argument.choices));
+                refuse("one of " + comma_list(argument.choices));
             }
             return;
         case ArgumentType::NumberOrPoint:
@@ -147,7 +141,7 @@ void check_value(const Argument& argument, const Json& value, const std::string&
 }
 
 std::string rule_text(const Argument& argument) {
-    if (!argument.choices.empty()) return "one of " + joined(argument.choices);
+    if (!argument.choices.empty()) return "one of " + comma_list(argument.choices);
     const std::string range = range_text(argument);
     return type_text(argument.type) + (range.empty() ? range : ", " + range);
 }

@@ -112,10 +112,9 @@ std::string changed_files_text(const Json& part) {
             std::ranges::find(changed, name) == changed.end())
             changed.push_back(name);
     });
-    std::string names;
-    for (const std::string& each : changed) names += (names.empty() ? "" : ", ") + each;
-    if (names.empty()) return names;
-    return names + (changed.size() > 1 ? " have" : " has") + " changed since the scene was saved";
+    if (changed.empty()) return {};
+    return comma_list(changed) + (changed.size() > 1 ? " have" : " has") +
+           " changed since the scene was saved";
 }
 
 std::vector<std::string> names_of_uri(const std::string& uri) {

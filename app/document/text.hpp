@@ -33,6 +33,13 @@ inline std::string lower_case(std::string_view text) {
     return result;
 }
 
+/// "Chest, Toes"
+std::string comma_list(const auto& words) {
+    std::string text;
+    for (const auto& each : words) (text += text.empty() ? "" : ", ") += each;
+    return text;
+}
+
 /// The text with its first letter in upper case.
 inline std::string capitalised(std::string text) {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');

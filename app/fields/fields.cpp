@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/input_json.hpp"
 
 namespace tendril::app {
@@ -73,12 +74,9 @@ double number_in_range(const JsonPlace& place, const Field& field) {
 
 double choice_at(const JsonPlace& place, const Field& field) {
     const std::string name = place.text();
-    std::string all;
-    for (std::size_t i = 0; i < field.choices.size(); ++i) {
+    for (std::size_t i = 0; i < field.choices.size(); ++i)
         if (name == field.choices[i]) return static_cast<double>(i);
-        all += (i > 0 ? ", " : "") + std::string(field.choices[i]);
-    }
-    place.fail("expected one of " + all + ", found " + json_summary(place.json()));
+    place.fail("expected one of " + comma_list(field.choices) + ", found " + json_summary(place.json()));
 }
 
 FieldValue loaded(const JsonPlace& place, const Field& field) {

@@ -1,5 +1,6 @@
 // Inputs, items and values of rigs as JSON.
 #include "app/fields/input_json.hpp"
+#include "app/document/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,6 @@
 
 namespace tendril::app {
 namespace {
-
-std::string joined(const auto& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : ", ") + std::string(word);
-    return text;
-}
 
 double read_real(const JsonPlace& place, double most) {
     if (most == most_given) return place.real();
@@ -84,14 +79,14 @@ void check_members(const JsonPlace& place, const std::vector<std::string>& known
     if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
     for (const auto& [key, value] : place.json().items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            place.fail("unknown member " + json_summary(Json(key)) + "; it takes: " + joined(known));
+            place.fail("unknown member " + json_summary(Json(key)) + "; it takes: " + comma_list(known));
 }
 
 std::size_t read_name(const JsonPlace& place, std::span<const std::string_view> names) {
     const std::string text = place.text();
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end())
-        place.fail("expected one of " + joined(names) + ", found " + json_summary(place.json()));
+        place.fail("expected one of " + comma_list(names) + ", found " + json_summary(place.json()));
     return static_cast<std::size_t>(found - names.begin());
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/solver_text.hpp"
 
@@ -70,9 +71,7 @@ std::span<const char* const> solver_names() {
 }
 
 std::string method_names() {
-    std::string all;
-    for (const char* const name : solver_names()) all += (all.empty() ? "" : ", ") + std::string(name);
-    return all;
+    return comma_list(solver_names());
 }
 
 }  // namespace tendril::app

@@ -8,6 +8,7 @@
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/names.hpp"
 #include "app/document/text.hpp"
 
 namespace tendril::app {
@@ -91,10 +92,8 @@ bool has_ending(const FileKind& kind, const fs::path& file) {
 }
 
 std::string kind_text(const FileKind& kind) {
-    std::string endings;
-    for (const std::string& ending : kind.endings)
-        endings += (endings.empty() ? "" : ", ") + ending.substr(1);
-    return kind.plural + " (" + endings + ")";
+    const auto endings = names(kind.endings, [](const std::string& each) { return each.substr(1); });
+    return kind.plural + " (" + comma_list(endings) + ")";
 }
 
 FileRoute file_route(const Labs& labs, const fs::path& file) {

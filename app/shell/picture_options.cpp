@@ -47,7 +47,7 @@ void PictureOptions::video_rows() {
     if (choice_field("shows", shown, contents, 2, nothing)) shows_ = shown;
     explain("The last seconds as they were, or the present moment while the camera turns once about it.");
     if (turns()) {
-        integer_field("frames of the turn", turn_frames_, 2, 3600);
+        integer_field("turn, frames", turn_frames_, 2, 3600);
         explain("How many frames the turn has.");
     } else {
         number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");

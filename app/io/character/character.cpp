@@ -160,7 +160,7 @@ LengthUnit guess_unit(double height) {
     constexpr std::array<LengthUnit, 6> units{{{"metres", 1.0},
                                                {"centimetres", 0.01},
                                                {"inches", 0.0254},
-                                               {"CMU's inches / 0.45", 0.0254 / 0.45},
+                                               {"CMU's unit of 56.4 mm", 0.0254 / 0.45},
                                                {"decimetres", 0.1},
                                                {"millimetres", 0.001}}};
     LengthUnit best = units[0];
@@ -201,7 +201,7 @@ std::optional<UnitDoubt> doubted_unit(double height, double scale, const humanoi
 
 std::string text(const UnitDoubt& doubt) {
     const std::string then = fixed_text(doubt.then, 2) + " m";
-    return "This person is " + length_text(doubt.height) + " tall at rest; " +
+    return "This figure is " + length_text(doubt.height) + " tall at rest; " +
            (*doubt.unit.name != '\0' ? std::string("if the file is in ") + doubt.unit.name + ", " + then + '.'
                                      : "no common unit makes it a usual height.");
 }

@@ -131,7 +131,7 @@ struct UnitDoubt {
 /// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt. `scale`:
 /// metres per unit of the file.
 std::optional<UnitDoubt> doubted_unit(double height, double scale, const humanoid::BoneMap& map);
-/// "This person is 172.00 m tall at rest; if the file is in centimetres, 1.72 m."
+/// "This figure is 172.00 m tall at rest; if the file is in centimetres, 1.72 m."
 std::string text(const UnitDoubt& doubt);
 
 }  // namespace tendril::app

@@ -10,6 +10,7 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/text.hpp"
+#include "app/document/units.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_write.hpp"
@@ -124,6 +125,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
                                after = lint(skeleton, map, what.corrected,
                                             {.rate = what.rate, .ground = what.ground});
     report.rate = what.rate;
+    if (has_origin) report.unit = what.character.scale;
     report.on_ground = what.ground != nullptr && what.ground->kind() != humanoid::GroundKind::Flat;
     report.findings = after.findings.size();
     for (const humanoid::Finding& each : after.findings)
@@ -143,7 +145,7 @@ std::string findings_text(const ExportReport& report) {
     constexpr std::size_t named = 2;
     if (report.findings == 0) return "no findings in the written clip";
     std::string text =
-        std::to_string(report.findings) + (report.findings == 1 ? " finding" : " findings") +
+        count_text(report.findings, "finding") +
         (report.on_ground ? " in the written clip on this ground, " : " in the written clip, ");
     const std::size_t fresh = report.new_findings.size();
     if (fresh == 0) return text + "none of them new";
@@ -153,21 +155,21 @@ std::string findings_text(const ExportReport& report) {
     return fresh > named ? text + " and " + std::to_string(fresh - named) + " more" : text;
 }
 
+std::string read_back_text(const ExportReport& report) {
+    return "; read back within " + fixed_text(1e3 * report.worst, 4) + " mm, worst at " + report.worst_joint;
+}
+
 }  // namespace
 
 std::string ExportReport::text() const {
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers, " is %.4f mm off", 1000.0 * worst);
-    std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
-    char numbers_of_rate[40];
-    std::snprintf(numbers_of_rate, sizeof numbers_of_rate, " at %.5g fps", rate);
-    text += numbers_of_rate;
-    text += "; worst joint " + worst_joint + numbers;
+    char rate_text[40];
+    std::snprintf(rate_text, sizeof rate_text, " at %.5g fps", rate);
+    const std::string text = count_text(frames, "frame") + rate_text + read_back_text(*this) +
+                             (unit == 1.0 ? "" : "; its unit stays: 1 m here is " + si_text(1.0 / unit, "m"));
     const std::string found = "; " + findings_text(*this);
     if (!has_feet) return text + "; no foot is ever planted" + found;
-    std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
-                  1000.0 * skating_after);
-    return text + numbers + found;
+    return text + "; feet skate " + fixed_text(1e3 * skating_after, 1) + " mm, before fixes and IK " +
+           fixed_text(1e3 * skating_before, 1) + " mm" + found;
 }
 
 std::string one_of_clips_text(const Character& character, const std::string& clip) {
@@ -201,16 +203,8 @@ std::string sum_text(const std::vector<ExportReport>& reports) {
         if (worst == nullptr || each.worst > worst->worst) worst = &each;
         fresh += each.new_findings.size();
     }
-    std::string text = std::to_string(reports.size()) + (reports.size() == 1 ? " clip" : " clips");
-    if (worst != nullptr) {
-        char number[60];
-        std::snprintf(number, sizeof number, " is %.4f mm off", 1000.0 * worst->worst);
-        text += "; worst joint " + worst->worst_joint + number;
-    }
-    return text + "; " +
-           (fresh == 0 ? "no new findings"
-                       : std::to_string(fresh) + (fresh == 1 ? " new finding" : " new findings")) +
-           " in them";
+    return count_text(reports.size(), "clip") + (worst != nullptr ? read_back_text(*worst) : "") + "; " +
+           (fresh == 0 ? "no new findings" : count_text(fresh, "new finding")) + " in them";
 }
 
 bool ends_as_export(const fs::path& path) {

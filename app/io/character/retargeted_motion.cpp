@@ -5,6 +5,8 @@
 #include <string_view>
 #include <tendril/humanoid/retarget.hpp>
 
+#include "app/document/names.hpp"
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 
 namespace tendril::app {
@@ -15,7 +17,7 @@ constexpr double hardly_sure = 0.8;  // bones below this confidence are reported
 /// "Chest, Toes": left and right as one, if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
     constexpr std::string_view left = "Left", right = "Right";
-    std::string text;
+    std::vector<std::string> all;
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(bones, [&](humanoid::Bone each) { return humanoid::name(each) == name; });
     };
@@ -24,9 +26,9 @@ std::string bone_names(const std::vector<humanoid::Bone>& bones) {
         if (name.starts_with(right) && has(std::string(left).append(name, right.size()))) continue;
         if (name.starts_with(left) && has(std::string(right).append(name, left.size())))
             name.erase(0, left.size());
-        text += (text.empty() ? "" : ", ") + name;
+        all.push_back(std::move(name));
     }
-    return text;
+    return comma_list(all);
 }
 
 /// One line on the parts of a motion that were not retargeted.
@@ -37,12 +39,10 @@ std::string what_stays(const humanoid::Retargeted& made, const humanoid::Skeleto
     if (!made.at_rest.empty()) parts.push_back("At rest: " + bone_names(made.at_rest) + '.');
     if (made.helpers.size() > few)
         parts.push_back("Left as they are: " + std::to_string(made.helpers.size()) + " helper nodes.");
-    else if (!made.helpers.empty()) {
-        std::string names;
-        for (const std::size_t each : made.helpers)
-            names += (names.empty() ? "" : ", ") + skeleton[each].name;
-        parts.push_back((made.helpers.size() == 1 ? "Left as it is: " : "Left as they are: ") + names + '.');
-    }
+    else if (!made.helpers.empty())
+        parts.push_back((made.helpers.size() == 1 ? "Left as it is: " : "Left as they are: ") +
+                        comma_list(names(made.helpers, [&](std::size_t i) { return skeleton[i].name; })) +
+                        '.');
     return parts.empty() ? "Every bone was retargeted." : joined(parts);
 }
 
@@ -56,12 +56,11 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
                                  std::string_view name) {
     if (character.clips.empty()) throw refusal_of(file, "has no clips");
     if (name.empty()) return character.clips.front();
-    std::string names;
-    for (const humanoid::Clip& each : character.clips) {
-        if (each.name == name) return each;
-        names += (names.empty() ? "" : ", ") + each.name;
-    }
-    throw refusal_of(file, "has no clip \"" + std::string(name) + "\"; it has " + names);
+    const auto found = std::ranges::find(character.clips, name, &humanoid::Clip::name);
+    if (found != character.clips.end()) return *found;
+    throw refusal_of(file,
+                     "has no clip \"" + std::string(name) + "\"; it has " +
+                         comma_list(names(character.clips, [](const auto& each) { return each.name; })));
 }
 
 RetargetedMotion retargeted_clip(const Character& source, const humanoid::BoneMap& source_map,

@@ -55,7 +55,7 @@ std::string limit_table(const std::vector<ik::Limit>& limits) {
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const ik::Limit& limit = limits[i];
         if (limit == ik::Limit{}) continue;
-        text += "    {" + std::to_string(i) + ", {" + joined(limit_members(limit)) + "}},\n";
+        text += "    {" + std::to_string(i) + ", {" + comma_list(limit_members(limit)) + "}},\n";
     }
     return text + "};\n";
 }

@@ -296,22 +296,18 @@ class Drawing {
 
     void ghost() {
         const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
+        // Fixes move joints less than bones are thick.
+        const Layer layer = part_.shows_fixes() ? Layer::Overlay : Layer::Scene;
         const auto at = [&](std::size_t i) { return glm::vec3(shown_.ghost[i].position); };
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
             if (!body_[i] && !springs_[i]) continue;
             for (const std::int32_t each : part_.skeleton().children(i))
                 if (const auto child = static_cast<std::size_t>(each);
                     (body_[child] || springs_[i]) && glm::distance(at(i), at(child)) > 1e-5f)
-                    list_.line(at(i), at(child), px(2.0f), paint);
+                    list_.line(at(i), at(child), px(2.0f), paint).layer = layer;
         }
     }
 
-    std::string text_of(std::size_t i) const {
-        const std::string& name = part_.skeleton()[i].name;
-        const auto bone = part_.bone_of(i);
-        if (!bone || name == humanoid::name(*bone)) return name;
-        return name + " (" + humanoid::name(*bone) + ")";
-    }
     void labels() {
         const bool always = view_.workspace.settings.labels == LabelMode::Always;
         const std::size_t stride = part_.skeleton().size() / max_labels + 1;
@@ -330,7 +326,7 @@ class Drawing {
             if (!marks && !(always && body_[i] && i % stride == 0)) continue;
             list_.labels.push_back({.at = shown_.point(i),
                                     .clearance = px(10.0f),
-                                    .text = text_of(i),
+                                    .text = part_.titled(i),
                                     .colour = view_.palette.text,
                                     .rank = lit(i)  ? 2
                                             : marks ? 1
@@ -401,7 +397,8 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (shown.hold) rows.push_back({"closed grip", colours.tail});
-    if (part.view.ghost && !shown.ghost.empty()) rows.push_back({"before", colours.ghost});
+    if (part.view.ghost && (part.shows_fixes() || !shown.ghost.empty()))
+        rows.push_back({"before", colours.ghost});
     add_ghost_legend(workspace, humanoid_past(), rows);
     return rows;
 }

@@ -18,10 +18,6 @@ HumanoidPart::HumanoidPart() : HumanoidPart(load_character({})) {}
 HumanoidPart::HumanoidPart(SharedCharacter character)
     : loaded(std::move(character)), map(std::make_shared<const BoneMap>(loaded->matched)) {}
 
-const humanoid::Clip* HumanoidPart::clip() const {
-    return playback.clip ? &loaded->clips()[*playback.clip] : nullptr;
-}
-
 std::optional<std::size_t> HumanoidPart::node_of(Bone bone) const {
     const std::int32_t node = (*map)[bone].node;
     return node < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(node));
@@ -30,6 +26,15 @@ std::optional<std::size_t> HumanoidPart::node_of(Bone bone) const {
 std::string HumanoidPart::called(std::size_t node) const {
     const auto bone = bone_of(node);
     return bone ? humanoid::name(*bone) : skeleton()[node].name;
+}
+
+std::string HumanoidPart::titled(std::size_t node) const {
+    const std::string& name = skeleton()[node].name;
+    return called(node) == name ? name : name + " (" + called(node) + ')';
+}
+
+std::vector<std::string> HumanoidPart::unmapped() const {
+    return bone_names([&](std::size_t i) { return map->bones[i].node < 0; });
 }
 
 std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {

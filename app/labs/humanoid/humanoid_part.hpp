@@ -79,11 +79,15 @@ struct HumanoidPart final : Part {
     FlipRule flips;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
-    const humanoid::Clip* clip() const;  ///< null if none is chosen
+    /// Null if none is chosen.
+    const humanoid::Clip* clip() const { return playback.clip ? &loaded->clips()[*playback.clip] : nullptr; }
+    bool shows_fixes() const { return clip() != nullptr && loaded->unfixed.contains(clip()->name); }
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
     /// A node's name for the user: its bone's name, else its own.
     std::string called(std::size_t node) const;
+    std::string titled(std::size_t node) const;  ///< "LeftLeg (LeftLowerLeg)"
+    std::vector<std::string> unmapped() const;   ///< bones
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
     Json save() const override;
@@ -128,6 +132,14 @@ template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HumanoidView>();
 
 namespace tendril::app {
+
+/// Names of the bones for whose index `is` holds.
+std::vector<std::string> bone_names(auto is) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (is(i)) names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
+    return names;
+}
 
 // Selected nodes. Files and commands store names, because another skeleton may have the same ones.
 

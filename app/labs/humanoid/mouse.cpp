@@ -235,12 +235,9 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     if (effector && !waiting) return effector_hint(part, *effector);
     const auto node = clicked_node(part, pick);
     if (!node) return {};
-    const std::string& name = part.skeleton()[*node].name;
-    if (waiting) return name + ": click makes it the " + humanoid::name(*waiting) + ".";
-    const auto bone = part.bone_of(*node);
-    return name +
-           (bone ? std::string(", the ") + humanoid::name(*bone) : std::string(", not a bone of the body")) +
-           ": click selects it.";
+    if (waiting)
+        return part.skeleton()[*node].name + ": click makes it the " + humanoid::name(*waiting) + ".";
+    return part.titled(*node) + ": click selects it.";
 }
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {

@@ -68,11 +68,8 @@ void kept_map_rows(const HumanoidPanel& panel) {
     const SavedMap* const map = maps.offered(panel.workspace);
     if (map == nullptr) return;
     const std::vector<humanoid::Bone> bones = bones_that_differ(*map, panel.part);
-    std::string names;
-    for (const humanoid::Bone bone : bones)
-        names += (names.empty() ? "" : ", ") + std::string(humanoid::name(bone));
     note("A bone map that you kept for these node names differs in " + count_text(bones.size(), "bone") +
-         ": " + names + '.');
+         ": " + name_list_text(names(bones, [](humanoid::Bone each) { return humanoid::name(each); })) + '.');
     if (row_button("Use it", 2, true, "Maps the bones as in the kept map")) panel.emit("humanoid.map.use");
     if (row_button("Forget it", 2, true, "It will not be offered again")) panel.emit("humanoid.map.forget");
     end_row();
@@ -265,11 +262,8 @@ void target_inspector(const HumanoidPanel& panel) {
         explain("How far the effector is from its target.");
     }
     if (!shown.body) return;
-    std::string limited;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        if (shown.body->at_limit[i])
-            limited +=
-                (limited.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<humanoid::Bone>(i)));
+    const std::string limited =
+        name_list_text(bone_names([&](std::size_t i) { return shown.body->at_limit[i]; }));
     kept_note("limited", limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".",
               3);
 }
@@ -440,14 +434,6 @@ void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& w
     }
 }
 
-static std::string unmapped_text(const HumanoidPart& part) {
-    std::string names;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        if (part.map->bones[i].node < 0)
-            names += (names.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<Bone>(i)));
-    return names;
-}
-
 Verdict humanoid_verdict(const Workspace& workspace) {
     const HumanoidPart& part = humanoid_part(workspace);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
@@ -474,7 +460,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     if (worst < 0.0 && all) return {"Complete body", Verdict::Kind::Good, bones + '.'};
     if (worst < 0.0)
         return {"Usable body", Verdict::Kind::Good,
-                bones + "; optional ones missing: " + unmapped_text(part) + '.'};
+                bones + "; optional ones missing: " + name_list_text(part.unmapped()) + '.'};
     if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones + '.'};
     const std::string off = worst < 0.1 ? fixed_text(1000.0 * worst, 1) + " mm" : fixed_text(worst, 2) + " m";
     return {off + " short", Verdict::Kind::Bad, bones + '.'};

@@ -47,13 +47,6 @@ Json bones_state(const HumanoidPart& part, const ShownPose& shown) {
     return bones;
 }
 
-Json unmatched_state(const HumanoidPart& part) {
-    Json names = Json::array();
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        if (part.map->bones[i].node < 0) names.push_back(humanoid::name(static_cast<Bone>(i)));
-    return names;
-}
-
 /// What the kept map would change, or why it was ignored; null if there is none, or it is in use.
 Json kept_map_state(const Workspace& workspace) {
     KeptMaps& maps = humanoid_runtime(workspace).kept_maps;
@@ -68,12 +61,6 @@ Json kept_map_state(const Workspace& workspace) {
     return {{"changes", std::move(changes)}};
 }
 
-/// "replace" or "add"; null where there is no OFFSET to add to.
-Json root_positions_state(const Character& character) {
-    if (character.root_offsets.empty()) return nullptr;
-    return root_positions.name(character.space.positions);
-}
-
 Json notes_state(const HumanoidPart& part) {
     Json notes = part.loaded->character.sentences();
     if (const auto doubt = part.loaded->doubted_unit(*part.map)) notes.push_back(text(*doubt));
@@ -85,13 +72,16 @@ Json notes_state(const HumanoidPart& part) {
 
 Json character_state(const Workspace& workspace, const ShownPose& shown) {
     const HumanoidPart& part = humanoid_part(workspace);
+    const Character& character = part.loaded->character;
+    const auto root =
+        root_positions.name(character.space.positions);  // without an OFFSET, there is no choice
     return Json{{"file", part.loaded->file},
-                {"scale", part.loaded->character.scale},
-                {"up", up_axes.name(part.loaded->character.space.up)},
-                {"root_positions", root_positions_state(part.loaded->character)},
+                {"scale", character.scale},
+                {"up", up_axes.name(character.space.up)},
+                {"root_positions", character.root_offsets.empty() ? Json(nullptr) : Json(root)},
                 {"nodes", nodes_state(part, shown)},
                 {"bones", bones_state(part, shown)},
-                {"unmatched", unmatched_state(part)},
+                {"unmatched", part.unmapped()},
                 {"rest", humanoid::name(part.map->rest)},
                 {"kept_map", kept_map_state(workspace)},
                 {"t_pose", part.t_pose},

@@ -71,6 +71,11 @@ std::vector<std::string> name_list(const Arguments& given, const char* name) {
     return names;
 }
 
+NamedArgument one_or_list(const char* one, const char* list, const std::vector<std::string>& names) {
+    if (names.size() == 1) return {one, names.front()};
+    return {list, SharedJson(Json(names))};
+}
+
 std::string name_list_text(const std::vector<std::string>& names) {
     constexpr std::size_t most = 8;
     std::string text;

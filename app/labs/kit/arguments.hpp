@@ -54,6 +54,9 @@ Argument name_list_argument(const char* name, const char* instead_of, const char
 /// The names. Throws Refused, naming the argument and the value, for anything but a string.
 std::vector<std::string> name_list(const Arguments& given, const char* name);
 
+/// The inverse of gives_one() and name_list(): one name, or the list.
+NamedArgument one_or_list(const char* one, const char* list, const std::vector<std::string>& names);
+
 /// "Head, LeftHand"; names after the eighth are replaced by "...".
 std::string name_list_text(const std::vector<std::string>& names);
 

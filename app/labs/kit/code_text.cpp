@@ -41,12 +41,6 @@ std::string braced(const glm::dquat& value) {
            double_text(value.z) + '}';
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-    std::string all;
-    for (const std::string& each : texts) all += (all.empty() ? "" : ", ") + each;
-    return all;
-}
-
 std::string string_text(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -97,7 +91,7 @@ std::string literal_code(const rig::Transform& transform) {
     if (transform.rotation != usual.rotation)
         texts.push_back(".rotation = " + literal_code(transform.rotation));
     if (transform.scale != usual.scale) texts.push_back(".scale = " + braced(transform.scale));
-    return "rig::Transform{" + joined(texts) + '}';
+    return "rig::Transform{" + comma_list(texts) + '}';
 }
 std::string literal_code(const rig::Value& value) {
     return "rig::Value(" + std::visit([](const auto& held) { return literal_code(held); }, value) + ')';
@@ -167,7 +161,7 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
         std::vector<std::string> numbers;
         for (const std::size_t i : order)
             numbers.push_back(field.exact ? double_text(value[i]) : literal(static_cast<float>(value[i])));
-        return joined(numbers);
+        return comma_list(numbers);
     };
     switch (field.type) {
         case FieldType::Flag:
@@ -236,7 +230,7 @@ std::string kind_text(std::span<const Field> table, const void* object, const vo
 }
 
 std::string struct_text(FieldsOf of, const std::string& margin) {
-    return '{' + joined(member_texts(of, margin)) + '}';
+    return '{' + comma_list(member_texts(of, margin)) + '}';
 }
 
 std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state) {

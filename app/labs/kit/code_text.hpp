@@ -10,6 +10,7 @@
 #include <tendril/rig/input.hpp>
 #include <vector>
 
+#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 
 namespace tendril::app {
@@ -48,8 +49,6 @@ std::string kind_text(std::span<const Field> table, const void* object, const vo
                       const std::string& margin);
 /// "{.name = "A", .at = {1.0, 0.0}}"
 std::string struct_text(FieldsOf of, const std::string& margin = {});
-/// Separated by ", ".
-std::string joined(const std::vector<std::string>& texts);
 
 /// ".kind = ik::JointKind::Hinge, ...": the members that are not at their default.
 std::vector<std::string> limit_members(const ik::Limit& limit);

@@ -276,7 +276,7 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .help = "How much the wind varies, relative to its speed. At 0 it is steady.",
          .more = true},
         {.name = "still_air",
-         .label = "still air resists",
+         .label = "Still air resists",
          .help = "Whether air resists without wind too: cloth then falls slowly, and swings less and less.",
          .more = true},
         {.name = "compliance",

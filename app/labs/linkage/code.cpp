@@ -12,7 +12,7 @@ namespace {
 std::string call_text(const Mechanism& mechanism) {
     const bool walker = std::holds_alternative<JansenWalker>(mechanism);
     return "ik::" + std::string(walker ? "jansen" : kind_of(mechanism)->name) + "({" +
-           joined(member_texts(mechanism_fields(mechanism))) + "})";
+           comma_list(member_texts(mechanism_fields(mechanism))) + "})";
 }
 
 /// Code that sets the ranges set by hand, before the solver is made.

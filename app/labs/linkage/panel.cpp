@@ -25,8 +25,8 @@ namespace tendril::app {
 namespace {
 
 std::string closure_names(const LinkagePart& part) {
-    return joined(names(part.result.open_closures,
-                        [&](std::size_t each) { return part.linkage().closures[each].name; }));
+    return comma_list(names(part.result.open_closures,
+                            [&](std::size_t each) { return part.linkage().closures[each].name; }));
 }
 
 /// "3 degrees of freedom in the plane."

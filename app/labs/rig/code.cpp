@@ -44,7 +44,7 @@ std::string definition_code(const rig::Definition& definition) {
     for (const rig::Element& element : definition.elements) {
         const rig::Element usual;
         text += "    made.elements.push_back({" +
-                joined(member_texts({fields<rig::Element>().first(4), &element, &usual}));
+                comma_list(member_texts({fields<rig::Element>().first(4), &element, &usual}));
         if (element.control)
             text += ",\n                             .control = " + control_code(*element.control);
         text += "});\n";

@@ -8,6 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"
@@ -78,9 +79,7 @@ LabSetting pending_marks() {
 }
 
 NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements) {
-    std::vector<std::string> names = names_of(part, elements);
-    if (names.size() == 1) return {"name", names.front()};
-    return {"names", SharedJson(Json(std::move(names)))};
+    return one_or_list("name", "names", names_of(part, elements));
 }
 
 void select_element(const RigPanel& panel, const std::string& name) {

@@ -93,9 +93,7 @@ std::string live_text(const UnitInput& input) {
                    ? count_text(static_cast<const signal::Curve*>(input.at)->keys.size(), "key")
                : *static_cast<const rig::TransformFilter*>(input.at) == rig::TransformFilter() ? "all axes"
                                                                                                : "some axes";
-    std::string text;
-    for (const std::string& each : input.names()) text += (text.empty() ? "" : ", ") + each;
-    return text;
+    return comma_list(input.names());
 }
 
 void live_lines(const RigPanel& panel, const UnitRow& row) {

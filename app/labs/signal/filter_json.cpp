@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
 #include "app/io/samples.hpp"
@@ -59,10 +60,7 @@ std::vector<signal::Filter> filters_from_json(const JsonPlace& place, std::size_
 }
 
 std::string kind_names() {
-    std::string names;
-    for (const char* const name : signal::kind_names)
-        names += (names.empty() ? "" : ", ") + std::string(name);
-    return names;
+    return comma_list(signal::kind_names);
 }
 
 std::string with_line(const std::string& text, const std::string& where, const std::string& error) {

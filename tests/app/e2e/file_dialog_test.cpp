@@ -46,7 +46,7 @@ TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     key("ctrl+shift+p");
     click({700.0f, at("shows").y});
     click(at("a full turn of the camera"));
-    click({700.0f, at("frames of the turn").y});
+    click({700.0f, at("turn, frames").y});
     key("ctrl+a");
     type("3");
     key("enter");
@@ -140,7 +140,7 @@ TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
         wait(4);
     };
     drop();
-    EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it alone Cancel"));
+    EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it on its own Cancel"));
     key("escape");
     EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
     EXPECT_TRUE(app_.state().at("clip").is_null() || app_.state().at("clip").at("name") != "motion");
@@ -149,7 +149,7 @@ TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
     EXPECT_EQ(app_.state().at("clip").at("name"), "motion");
     EXPECT_EQ(character(), before);
     drop();
-    click(at("Open it alone"));
+    click(at("Open it on its own"));
     EXPECT_EQ(character(), motion);
     EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
 }

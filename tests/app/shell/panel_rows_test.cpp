@@ -265,7 +265,7 @@ TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
     EXPECT_FALSE(shows("gusts"));
     run("rope.preset", {{"name", "flag"}});
     EXPECT_TRUE(shows("gusts"));
-    EXPECT_TRUE(shows("still air resists"));
+    EXPECT_TRUE(shows("Still air resists"));
 }
 
 TEST_F(RowsUnderMore, ButtonsAddAndRemoveACharacterInTheRopeLab) {

@@ -15,17 +15,10 @@
 namespace tendril::app {
 namespace {
 
-/// The bone mapped to the node, or the node's own name.
-std::string holder_name(const HumanoidPart& part, const std::string& node) {
-    const auto found = part.skeleton().find(node);
-    const auto bone = found ? part.bone_of(*found) : std::nullopt;
-    return bone ? humanoid::name(*bone) : node;
-}
-
 void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
     ImGui::PushID(each.name.c_str());
     reading(each.name.c_str(), "%s on %s", attachment_kinds.title(each.kind),
-            holder_name(panel.part, each.node).c_str());
+            panel.part.called(*panel.part.skeleton().find(each.node)).c_str());
     if (row_button("Remove", 1, true, "Takes it off the character"))
         panel.emit("humanoid.detach", {{"name", each.name}});
     end_row();

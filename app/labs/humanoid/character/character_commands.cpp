@@ -178,10 +178,9 @@ void show_all(Workspace& workspace) {
 /// What loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if the user
 /// made nothing. `keeps_clip`: the chosen clip goes along, with its fixes and the bones that it was read by.
 std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
-    std::string text;
+    std::vector<std::string> all;
     const auto add = [&](std::size_t count, const char* one, const char* many) {
-        if (count == 0) return;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + (count == 1 ? one : many);
+        if (count > 0) all.push_back(std::to_string(count) + ' ' + (count == 1 ? one : many));
     };
     std::vector<ClipEdit> edits = part.loaded->edits;
     if (keeps_clip)
@@ -196,12 +195,12 @@ std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
         "target", "targets");
     add(part.curves.size(), "curve", "curves");
     // The built-in figure's attachments and IK may be the opening's.
-    if (part.loaded->file.empty()) return text;
+    if (part.loaded->file.empty()) return comma_list(all);
     add(part.attachments.list.size(), "attachment", "attachments");
     IkSettings rest = part.ik;
     rest.targets = {};
-    if (!(rest == IkSettings())) text += (text.empty() ? "" : ", ") + std::string("IK settings");
-    return text;
+    if (!(rest == IkSettings())) all.emplace_back("IK settings");
+    return comma_list(all);
 }
 
 /// `plays`: on it plays the clip of the character before it.
@@ -357,15 +356,15 @@ std::vector<FileWay> HumanoidLab::file_ways(const Workspace& workspace,
     if (loaded.file.empty() || !part.map->is_usable() || !ends_as_character(file)) return {};
     const std::string before = std::filesystem::path(loaded.file).filename().string();
     const bool shows_motion = !loaded.character.skin.mesh && part.clip() != nullptr;
-    const FileWay alone{"Open it alone", "Replaces " + before, "humanoid.load"};
+    const FileWay alone{"Open it on its own", "Replaces " + before, "humanoid.load"};
     if (is_bare_motion(file) != shows_motion) {
         if (!shows_motion)
             return {{"Play it on the figure", "A clip for " + before + ", by the bone maps",
                      "humanoid.motion.load"},
                     alone};
-        return {
-            {"Play \"" + part.clip()->name + "\" on it", "With the fixes made on it", "humanoid.motion.take"},
-            alone};
+        return {{"Play \"" + part.clip()->name + "\" on it", "With its fixes, if it has any",
+                 "humanoid.motion.take"},
+                alone};
     }
     return {};
 }
@@ -396,10 +395,7 @@ void finish_loading(Workspace& workspace) {
 }
 
 std::vector<std::string> bone_names() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
-    return names;
+    return bone_names([](std::size_t) { return true; });
 }
 
 std::size_t node_named(const HumanoidPart& part, const std::string& name) {
@@ -490,13 +486,9 @@ void load_map(HumanoidPart& part, const Arguments& given) {
 
 /// The named clip, else the chosen one, else the first.
 std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
-    const std::vector<Clip>& clips = part.loaded->clips();
-    if (clips.empty()) throw std::invalid_argument("the character has no clips");
+    if (part.loaded->clips().empty()) throw std::invalid_argument("the character has no clips");
     const std::string name = text_or_none(given, "clip");
-    if (name.empty()) return part.playback.clip.value_or(0);
-    const auto found = std::ranges::find(clips, name, &Clip::name);
-    if (found == clips.end()) throw std::invalid_argument("the character has no clip \"" + name + "\"");
-    return static_cast<std::size_t>(found - clips.begin());
+    return name.empty() ? part.playback.clip.value_or(0) : part.loaded->clip_called(name);
 }
 
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,

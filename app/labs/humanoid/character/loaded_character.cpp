@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "app/io/character/read.hpp"
@@ -32,15 +33,26 @@ void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips)
     std::vector<humanoid::Clip>& clips = character.clips;
     const auto place = std::ranges::find(clips, edit.clip->name, &humanoid::Clip::name);
     const bool own = place < clips.begin() + static_cast<std::ptrdiff_t>(own_clips);
-    humanoid::Clip clip = edit.as.scale == character.scale && edit.as.space == character.space
-                              ? *edit.clip
-                              : read_as_now(*edit.clip, edit.as.scale, edit.as.space, character, own);
-    if (place == clips.end()) return clips.push_back(std::move(clip));
-    loaded.unfixed.try_emplace(clip.name, std::make_shared<const humanoid::Clip>(std::move(*place)));
-    *place = std::move(clip);
+    const auto now = [&](const humanoid::Clip& clip) {
+        return edit.as.scale == character.scale && edit.as.space == character.space
+                   ? clip
+                   : read_as_now(clip, edit.as.scale, edit.as.space, character, own);
+    };
+    const bool added = place == clips.end();
+    if (!added || edit.unfixed)
+        loaded.unfixed.try_emplace(
+            edit.clip->name, std::make_shared<const humanoid::Clip>(added ? now(*edit.unfixed) : *place));
+    if (added) return clips.push_back(now(*edit.clip));
+    *place = now(*edit.clip);
 }
 
 }  // namespace
+
+std::size_t LoadedCharacter::clip_called(const std::string& name) const {
+    const auto found = std::ranges::find(clips(), name, &humanoid::Clip::name);
+    if (found != clips().end()) return static_cast<std::size_t>(found - clips().begin());
+    throw std::invalid_argument("the character has no clip \"" + name + "\"");
+}
 
 const humanoid::Clip& LoadedCharacter::clip_unfixed(std::size_t clip) const {
     const auto before = unfixed.find(clips()[clip].name);

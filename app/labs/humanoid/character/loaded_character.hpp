@@ -61,6 +61,8 @@ struct ClipEdit {
     std::variant<LoadedMotion, ClipCure> what;
     Reading as{};                                ///< the settings when it was made
     std::shared_ptr<const humanoid::Clip> clip;  ///< in the metres and axes of `as`
+    std::shared_ptr<const humanoid::Clip>
+        unfixed{};  ///< a motion without the fixes made on it; null: it has none
 };
 
 /// Without a file it is the stick figure.
@@ -74,6 +76,7 @@ struct LoadedCharacter : OutsideFile {
     RestBounds bounds{};                    ///< at rest
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
+    std::size_t clip_called(const std::string& name) const;  ///< throws std::invalid_argument
     /// The clip before its fixes.
     const humanoid::Clip& clip_unfixed(std::size_t clip) const;
     double height() const { return bounds.height(); }

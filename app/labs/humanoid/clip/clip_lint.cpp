@@ -182,10 +182,8 @@ void require_cure_in_clip(const HumanoidPart& part, const ClipCure& cure, const 
 }
 
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress) {
-    const std::vector<Clip>& clips = part.loaded->clips();
-    const auto place = std::ranges::find(clips, cure.clip, &Clip::name);
-    if (place == clips.end()) throw std::invalid_argument("the character has no clip \"" + cure.clip + "\"");
-    Clip clip = *place;
+    const Clip& place = part.loaded->clips()[part.loaded->clip_called(cure.clip)];
+    Clip clip = place;
     const std::optional<BodyLimits> limits = limits_for(part);
     const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
     // Each cure leaves fewer findings, so that this ends. What could not be cured is tried once more after
@@ -218,7 +216,7 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     }
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
-    if (clip == *place) {
+    if (clip == place) {
         if (left.empty()) throw std::invalid_argument("clip " + cure.clip + " has no such fault");
         throw std::invalid_argument(cured_text(part, JudgedClip::Clip, cure.clip, 0, now, left));
     }
@@ -280,7 +278,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
         go_to_finding(panel, finding);
     const std::string why =
         finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
-    explain((where + ": " + finding.text + why).c_str());
+    explain((finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
@@ -326,10 +324,10 @@ static void findings_rows(const HumanoidPanel& panel) {
     const std::vector<Finding>& findings = report->findings;
     if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
-         fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
+         fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " fps");
     const bool any = std::ranges::any_of(findings, &Finding::has_cure);
     if (row_button("Fix all", 1, any,
-                   any ? "Fixes all that can be fixed, as one step to undo; says why not"
+                   any ? "Fixes what has a fix, as one undo step, and says why for the rest"
                        : "None has a fix; each one's tooltip says why"))
         panel.emit("humanoid.cure", {});
     end_row();

@@ -47,21 +47,24 @@ PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, c
                                  " characters already, the maximum: export it, and load that file");
     const std::filesystem::path path(from.path);
     const Clip& wanted = clip_named(from.character, path, clip);
-    RetargetedMotion motion =
-        retargeted_clip(from.character, *source.map, path, wanted, part.skeleton(), *part.map);
-    motion.clip.name = free_name(*part.loaded, wanted.name);
-    const bool fixed = std::ranges::any_of(from.edits, [&](const ClipEdit& each) {
-        const auto* const cure = std::get_if<ClipCure>(&each.what);
-        return cure != nullptr && cure->clip == wanted.name;
-    });
+    const auto retargeted = [&](const Clip& each) {
+        RetargetedMotion motion =
+            retargeted_clip(from.character, *source.map, path, each, part.skeleton(), *part.map);
+        motion.clip.name = free_name(*part.loaded, wanted.name);
+        return motion;
+    };
+    RetargetedMotion motion = retargeted(wanted);
+    const auto before = from.unfixed.find(wanted.name);
+    const bool fixed = before != from.unfixed.end();
     PlayedMotion played;
     played.text = "Clip " + motion.clip.name + " from " + path.filename().string() +
                   (fixed ? ", with its fixes. " : ". ") + motion.notes.front();
     LoadedMotion made{from, wanted.name, std::move(motion.notes)};
     if (from.source || !corrections_of(*source.map, from).empty())
         made.source = source.loaded, made.source_as = reading_of(source);
-    played.loaded = edited(part.loaded, {std::move(made), reading_of(part),
-                                         std::make_shared<const Clip>(std::move(motion.clip))});
+    played.loaded = edited(
+        part.loaded, {std::move(made), reading_of(part), std::make_shared<const Clip>(std::move(motion.clip)),
+                      fixed ? std::make_shared<const Clip>(retargeted(*before->second).clip) : nullptr});
     return played;
 }
 

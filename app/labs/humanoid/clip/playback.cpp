@@ -347,10 +347,7 @@ std::size_t chosen_clip(const LoadedCharacter& character, const Arguments& given
         throw std::invalid_argument("index must be 0 to " + std::to_string(clips.size() - 1) + ", got " +
                                     std::to_string(index));
     }
-    const std::string name = given.text("name");
-    const auto found = std::ranges::find(clips, name, &humanoid::Clip::name);
-    if (found != clips.end()) return static_cast<std::size_t>(found - clips.begin());
-    throw std::invalid_argument("the character has no clip \"" + name + "\"");
+    return character.clip_called(given.text("name"));
 }
 
 glm::vec3 hips_at(const Workspace& workspace) {

@@ -13,6 +13,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
@@ -144,17 +145,10 @@ std::string in_words(const JointNow& joint) {
 
 using Joints = std::vector<Bone>;
 
-Json names_of(const Joints& joints) {
-    Json list = Json::array();
-    for (const Bone bone : joints) list.push_back(humanoid::name(bone));
-    return list;
-}
-
 /// Arguments of a command that sets where the joints take their limits from.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
-    const NamedArgument which = joints.size() == 1 ? NamedArgument{"bone", humanoid::name(joints.front())}
-                                                   : NamedArgument{"bones", SharedJson(names_of(joints))};
-    return {{"from", limits_from.name(from)}, which};
+    return {{"from", limits_from.name(from)},
+            one_or_list("bone", "bones", names(joints, [](Bone each) { return humanoid::name(each); }))};
 }
 
 /// Chooses the source of the limits. Each joint uses its own range from it, about its own axes.

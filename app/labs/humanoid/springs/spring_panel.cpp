@@ -46,12 +46,6 @@ void add_row(const HumanoidPanel& panel) {
     end_list();
 }
 
-/// Names the nodes in a command: "node" for one, "nodes" for several.
-NamedArgument of_nodes(const std::vector<std::string>& nodes) {
-    if (nodes.size() == 1) return {"node", nodes.front()};
-    return {"nodes", SharedJson(Json(nodes))};
-}
-
 void put_on_springs_row(const HumanoidPanel& panel) {
     std::vector<std::string> nodes;
     for (const std::size_t node : selected_for_springs(panel.part))
@@ -61,14 +55,15 @@ void put_on_springs_row(const HumanoidPanel& panel) {
     const std::string too_many = "At most " + std::to_string(max_springs) + " springs";
     if (row_button(nodes.size() == 1 ? "Put on a spring" : "Put on springs", 1, free,
                    free ? "It and everything below it then trail behind the clip" : too_many.c_str()))
-        panel.emit("humanoid.spring", {of_nodes(nodes)});
+        panel.emit("humanoid.spring", {one_or_list("node", "nodes", nodes)});
     end_row();
 }
 
 /// Shows one spring; editing sets all.
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
-    const FieldRows rows(spring.options, "humanoid.spring", panel.emit, {of_nodes(nodes)});
+    const FieldRows rows(spring.options, "humanoid.spring", panel.emit,
+                         {one_or_list("node", "nodes", nodes)});
     rows.rows("strength", "critical_damping", "weight", "max_angle");
     if (colliding(panel.part, spring) != nullptr) rows.row("hit_radius");
 }

@@ -237,6 +237,7 @@ TEST_F(HumanoidMotions, FixesGoAlongToAnotherCharacter) {
     tells("motion from faulty_walk.bvh with its fixes");
     EXPECT_EQ(workspace.ui.toasts.back().text.find("Discarded"), std::string::npos);
     EXPECT_FALSE(*part().clip() == unfixed);
+    EXPECT_TRUE(part().loaded->clip_unfixed(*part().playback.clip) == unfixed) << "for ghost and export";
     const HumanoidPart other(load_character(figure));
     EXPECT_TRUE(*part().clip() == with_motion(other, fixed, "motion").loaded->clips().back());
     EXPECT_TRUE(humanoid_part(reopened()).loaded->clips() == part().loaded->clips());
