@@ -227,7 +227,7 @@ void add_unit(RigPart& part, rig::Unit unit, int at, const std::string& into) {
     const std::string name = added[0].name;
     list->insert(static_cast<std::size_t>(at < 0 ? count : at), std::move(added[0]));
     redefine(part, std::move(definition));
-    part.selected.unit = name;  // the list unfolds it
+    part.selected.unit = name;  // the inspector shows it
     part.selected.unit_last = true;
 }
 
