@@ -124,6 +124,12 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
         emit("rig.copy");
     end_row();
     picture_rows(emit);
+    const bool recorded = panel.part.clip != nullptr;
+    if (row_button(
+            "Export clip", 1, recorded,
+            recorded ? "The bones and how they moved, as a new GLB file" : "Record a clip first, under Clip"))
+        emit("rig.clip.export");
+    end_row();
 }
 
 // Sections of the right panel: the selected element with its poses, the selected unit with its inputs.
