@@ -149,7 +149,7 @@ void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
 
 void add_element_menu(const RigPanel& panel) {
     const bool pressed =
-        row_button("Add", 2, true, "A bone, a null or a control, below the selected element");
+        row_button("Add", 3, true, "A bone, a null or a control, below the selected element");
     if (begin_list_of_button("add element", pressed)) {
         const auto add = [&](const char* title, const char* kind, const char* control) {
             if (!list_row(title, false)) return;
@@ -181,7 +181,12 @@ void element_tree(const RigPanel& panel) {
     // Above the list, whose length they change.
     add_element_menu(panel);
     const Selection& selected = panel.part.selected.elements;
-    if (row_button("Remove", 2, !selected.empty(),
+    if (row_button(
+            "Mirror", 3, panel.part.selected.only_element().has_value(),
+            "Copies the selected element and all below it to the other side of its parent, across X. A "
+            "for-each over it loops over the copy too"))
+        panel.edit("rig.element.mirror", {{"name", panel.part.selected_element()}});
+    if (row_button("Remove", 3, !selected.empty(),
                    selected.several() ? "Removes the selected elements" : "Removes the selected element"))
         panel.edit("rig.element.remove", {which(panel.part, selected.all())});
     end_row();
