@@ -93,8 +93,9 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
         workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path();
     if (std::exchange(home_, home) != home) opened_.clear();
     open_folder(!saving() && fs::is_directory(opened_, error) ? opened_ : home);
+    const Lab& lab = *labs.find(workspace.lab);
     if (picturing())
-        picture_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace), filming());
+        picture_.start(workspace, lab.labels_pictures(workspace), filming(), lab.last_round(workspace));
     const std::string name = picturing() ? picture_name(workspace, folder_)
                              : saving()  ? workspace.path.filename().string()
                                          : std::string();

@@ -11,15 +11,15 @@
 
 namespace tendril::app {
 
-void PictureOptions::start(const Workspace& workspace, bool labels, bool video) {
+void PictureOptions::start(const Workspace& workspace, bool labels, bool video, int round) {
     video_ = video;
     labels_ = labels;
     const Rewind& past = workspace.rewind;
     const std::uint64_t now = past.empty() ? 0 : std::max(past.newest(), workspace.moment);
     const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::max_ticks);
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
-    from_ = remembered_;
-    to_ = 0.0f;
+    from_ = round > 0 ? static_cast<float>(round * tick_seconds) : remembered_;
+    to_ = round > 0 ? static_cast<float>(2 * tick_seconds) : 0.0f;  // the next frame is the first again
     view_ = workspace.ui.picture_size;
     for (std::size_t i = 0; i < why_not_.size(); ++i) why_not_[i] = why_no_video(video_kinds[i]);
     if (!why_not_[static_cast<std::size_t>(format_)].empty()) format_ = 0;
@@ -51,7 +51,7 @@ void PictureOptions::video_rows() {
         explain("How many frames the turn has.");
     } else {
         number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");
-        explain("Where the video begins: this long before the latest moment.");
+        explain("Where the video begins, before the latest moment; at first, a motor's last whole turn.");
         number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s");
         explain("Where the video ends: this long before the latest moment.");
         number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest),

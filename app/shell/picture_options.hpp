@@ -19,8 +19,8 @@ class PictureOptions {
     float rows() const { return video_ ? 13.0f : 7.0f; }
 
     /// Call when the dialog opens. Keeps earlier choices, except for seconds and labels. `labels`: whether
-    /// the lab wants labels.
-    void start(const Workspace& workspace, bool labels, bool video);
+    /// the lab wants labels. `round`: the last ticks that loop, shown at first; 0: all that is remembered.
+    void start(const Workspace& workspace, bool labels, bool video, int round);
     void frame();
     /// The chosen format's ending.
     const char* ending() const { return kind().ending; }

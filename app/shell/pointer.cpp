@@ -111,14 +111,15 @@ void Pointer::forget_missing(const Workspace& workspace, const Lab& lab) {
     if (!is_there(hovered_)) hovered_ = no_pick;
     if (!is_there(clicked_)) clicked_ = no_pick;
     if (caught_in_ != &lab || (is_there(caught_) && is_there(caught_handle_))) return;
-    gesture_ = Gesture::Nothing;
-    caught_ = caught_handle_ = no_pick;
-    by_.reset();
-    together_.clear();
+    let_go();
 }
 
 void Pointer::release(const Scene& scene, Emit& emit) {
     if (gesture_ == Gesture::Drag) caught_in_->drop(scene.workspace, caught_handle_, emit);
+    let_go();
+}
+
+void Pointer::let_go() {
     gesture_ = Gesture::Nothing;
     caught_ = caught_handle_ = no_pick;
     by_.reset();

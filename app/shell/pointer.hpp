@@ -37,6 +37,7 @@ class Pointer {
     void forget_missing(const Workspace& workspace, const Lab& lab);
     /// Ends any interaction, without a click; drops a dragged handle.
     void release(const Scene& scene, Emit& emit);
+    void let_go();
 
     /// The hovered object of the lab; no_pick for a gizmo's part.
     PickId hovered() const { return hovered_part() ? no_pick : hovered_; }

@@ -126,10 +126,11 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
     explain("Where it is: X, Y and Z.");
-    const double angle = angle_at(part, part.selected);
+    std::string bars;
+    const double angle = angle_at(part, part.selected, &bars);
     if (std::isfinite(angle)) {
-        reading("angle", "%.1f degrees", angle);
-        explain("Between its two bars; of a single one on a pin, from +X.");
+        reading(("angle " + bars).c_str(), "%.1f degrees", angle);
+        explain("Between its two bars; of a single one, from +X.");
     }
     if (!part.shape->in_plane()) return;
     bar_rows(part, *at, emit);

@@ -87,21 +87,25 @@ std::string value_text(const LinkagePart& part, std::string_view joint, double v
     return turns(part, joint) ? fixed_text(shown, 1) + " degrees" : fixed_text(shown, 3) + " m";
 }
 
-double angle_at(const LinkagePart& part, std::string_view point) {
+double angle_at(const LinkagePart& part, std::string_view point, std::string* name) {
     const ik::LinkageSketch& sketch = part.shape->sketch;
     const auto at = sketch.find_point(point);
     if (!at) return no_angle;
     const std::vector<std::size_t> here = bars_at(sketch, *at);
     if (here.empty()) return no_angle;
-    const auto along = [&](std::size_t bar) {
+    const auto end = [&](std::size_t bar) {
         const std::vector<std::size_t>& points = sketch.bars[bar].points;
-        return way(part, *at, points[0] == *at ? points[1] : points[0]);
+        return points[0] == *at ? points[1] : points[0];
     };
     const std::vector<std::size_t>& bodies = part.shape->bodies;
     auto other = std::ranges::find_if(here, [&](auto bar) { return bodies[bar] != bodies[here[0]]; });
     if (other == here.end() && sketch.points[*at].hold != ik::SketchHold::Pinned && here.size() > 1)
         other = here.begin() + 1;
-    return between(along(here[0]), other == here.end() ? glm::dvec2(1.0, 0.0) : along(*other));
+    const bool alone = other == here.end();
+    if (name != nullptr)
+        *name = sketch.points[end(here[0])].name + sketch.points[*at].name +
+                (alone ? " to X" : sketch.points[end(*other)].name);
+    return between(way(part, *at, end(here[0])), alone ? glm::dvec2(1.0, 0.0) : way(part, *at, end(*other)));
 }
 
 double transmission_angle(const LinkagePart& part) {

@@ -37,6 +37,18 @@ std::vector<ClipBone> clip_bones(const rig::Rig& rig, const rig::Hierarchy& tree
     return bones;
 }
 
+/// The bones of the clip, which must be the rig's.
+std::vector<ClipBone> recorded_bones(const RigPart& part) {
+    if (!part.clip) throw std::invalid_argument("there is no clip; rig.clip.record makes one");
+    std::vector<ClipBone> bones = clip_bones(part.rig, part.state->elements);
+    if (!std::ranges::equal(bones, part.clip->bones, {}, [&](const ClipBone& bone) {
+            return part.rig.definition().elements[bone.element].name;
+        }))
+        throw std::invalid_argument(
+            "the rig's bones have changed since the clip was recorded; record it again");
+    return bones;
+}
+
 rig::Transform widened(const ClipPose& pose) {
     return {glm::dvec3(pose.translation), rig::normalised(glm::dquat(pose.rotation)), glm::dvec3(pose.scale)};
 }
@@ -119,14 +131,37 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
     return clip;
 }
 
+Character clip_character(const RigPart& part) {
+    const std::vector<ClipBone> bones = recorded_bones(part);
+    rig::Hierarchy tree = part.state->elements;
+    const auto rest = [&](rig::ElementId id) { return tree.get(id, rig::Space::Global, rig::Pose::Initial); };
+    std::vector<humanoid::Node> nodes;
+    humanoid::Clip clip{.name = "take", .rate = 1.0 / tick_seconds};
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+        const auto parent = std::ranges::find(bones, bones[i].parent, &ClipBone::id) - bones.begin();
+        const bool is_root = !bones[i].parent;
+        nodes.push_back(
+            {.name = part.clip->bones[i],
+             .parent = is_root ? -1 : static_cast<std::int32_t>(parent),
+             .rest = is_root ? rest(bones[i].id) : rig::relative(rest(bones[i].parent), rest(bones[i].id))});
+        humanoid::Channel& channel = clip.channels.emplace_back(humanoid::Channel{.node = i});
+        for (std::size_t frame = 0; frame < part.clip->frames(); ++frame) {
+            const rig::Transform pose = widened(part.clip->poses[frame * bones.size() + i]);
+            channel.translation.times.push_back(static_cast<double>(frame) * tick_seconds);
+            channel.translation.values.push_back(pose.translation);
+            channel.rotation.values.push_back(pose.rotation);
+            channel.scale.values.push_back(pose.scale);
+        }
+        channel.rotation.times = channel.scale.times = channel.translation.times;
+        clip.duration = channel.translation.times.back();
+    }
+    Character character{.skeleton = skeleton_of(std::move(nodes))};
+    character.clips.push_back(std::move(clip));
+    return character;
+}
+
 void check_clip_solve(const RigPart& part) {
-    if (!part.clip) throw std::invalid_argument("there is no clip; rig.clip.record makes one");
-    std::vector<std::string> bones;
-    for (const ClipBone& bone : clip_bones(part.rig, part.state->elements))
-        bones.push_back(part.rig.definition().elements[bone.element].name);
-    if (bones != part.clip->bones)
-        throw std::invalid_argument(
-            "the rig's bones have changed since the clip was recorded; record it again");
+    recorded_bones(part);
     if (frame_work(part) > max_frame_work)
         throw std::invalid_argument("the rig is so large that a frame of the clip would take too long");
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/io/character/character.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {
@@ -12,6 +13,10 @@ namespace tendril::app {
 /// Records the start of the take and its first `frames` ticks. Throws std::invalid_argument if the rig has no
 /// bones, or if the clip would be too large or take too long.
 RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
+
+/// The rig's bones and the clip, as the writers of files take them. Throws std::invalid_argument if there is
+/// no clip, or if its bones differ from the rig's.
+Character clip_character(const RigPart& part);
 
 /// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones differ
 /// from the rig's, or if a single frame would take too long.

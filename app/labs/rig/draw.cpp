@@ -570,8 +570,7 @@ LabSetting rig_strip_setting() {
 }
 
 std::vector<LabSetting> RigLab::settings() const {
-    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting(),
-            rig_strip_setting()};
+    return {rig_axes_setting(), rig_figures_setting(), rig_pending_setting(), rig_strip_setting()};
 }
 
 }  // namespace tendril::app

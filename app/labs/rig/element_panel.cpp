@@ -78,14 +78,11 @@ std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size
     return value_text(value);
 }
 
-void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool marks) {
+void row_tooltip(const RigPart& part, std::size_t i) {
     const rig::Element& element = part.rig.definition().elements[i];
     std::string text = element.name + ": ";
     text += element.control ? control_title(element.control->kind) : rig::name(element.kind);
     if (!element.parent.empty()) text += ", child of " + element.parent;
-    if (marks)
-        text += std::string("\nThe two bars are its local and its global transform: ") +
-                pending_text(pending) + '.';
     tooltip(text + "\nShift+click adds it to the selection, or takes it out.");
 }
 
@@ -95,9 +92,8 @@ float row_height() {
 }
 
 /// `highlighted`: selected by the filter.
-void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighted) {
+void draw_row(const RigPanel& panel, const Row& row, bool highlighted) {
     const rig::Element& element = panel.part.rig.definition().elements[row.element];
-    const rig::Pending pending = panel.part.state->elements.pending(panel.part.rig.id(row.element));
     const float line = ImGui::GetTextLineHeight(), em = ImGui::GetFontSize();
     const RigSelection& selected = panel.part.selected;
     const ImVec2 corner = ImGui::GetCursorScreenPos(), at = ImGui::GetCursorPos();
@@ -114,16 +110,14 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighte
             select_element(panel, selected.only_element() == row.element ? "" : element.name);
     }
     ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered()) row_tooltip(panel.part, row.element, pending, marks);
+    if (ImGui::IsItemHovered()) row_tooltip(panel.part, row.element);
     ImGui::PopID();
     const float indent = 0.7f * em * static_cast<float>(std::min(row.depth, 6));
     draw_kind(element.kind, {corner.x + indent + 0.5f * em, corner.y + 0.5f * line}, 0.75f * em,
               panel.colours);
-    const float mark = marks ? 1.1f * em : 0.0f;
-    if (marks) draw_pending(pending, {corner.x + width - 0.4f * em, corner.y + 0.5f * line}, panel.colours);
     // The name takes precedence over the value.
     const std::string value = short_text(panel.part, panel.now, row.element);
-    const float from = at.x + indent + 1.2f * em, end = at.x + width - mark;
+    const float from = at.x + indent + 1.2f * em, end = at.x + width;
     const float value_width = ImGui::CalcTextSize(value.c_str()).x;
     const std::string name = elided(element.name, end - from);
     ImGui::SetCursorPos({from, at.y});
@@ -153,17 +147,9 @@ void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     show_row(static_cast<int>(row - rows.begin()));
 }
 
-void marks_legend(const Palette& colours) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float em = ImGui::GetFontSize();
-    draw_pending(rig::Pending::Global, {at.x + 0.4f * em, at.y + 0.5f * ImGui::GetTextLineHeight()}, colours);
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em);
-    note("filled = not worked out yet");
-}
-
 void add_element_menu(const RigPanel& panel) {
     const bool pressed =
-        row_button("Add", 2, true, "A bone, a null or a control, below the selected element");
+        row_button("Add", 3, true, "A bone, a null or a control, below the selected element");
     if (begin_list_of_button("add element", pressed)) {
         const auto add = [&](const char* title, const char* kind, const char* control) {
             if (!list_row(title, false)) return;
@@ -191,7 +177,19 @@ void add_element_menu(const RigPanel& panel) {
 
 }  // namespace
 
-void element_tree(const RigPanel& panel, MoreRows& more) {
+void element_tree(const RigPanel& panel) {
+    // Above the list, whose length they change.
+    add_element_menu(panel);
+    const Selection& selected = panel.part.selected.elements;
+    if (row_button(
+            "Mirror", 3, panel.part.selected.only_element().has_value(),
+            "Copies the selected element and all below it to the other side of its parent, across X. A "
+            "for-each over it loops over the copy too"))
+        panel.edit("rig.element.mirror", {{"name", panel.part.selected_element()}});
+    if (row_button("Remove", 3, !selected.empty(),
+                   selected.several() ? "Removes the selected elements" : "Removes the selected element"))
+        panel.edit("rig.element.remove", {which(panel.part, selected.all())});
+    end_row();
     auto& filter = panel.runtime.panel.filter;
     const std::size_t count = panel.part.state->controls.size();
     constexpr std::size_t many = 12;  // a shorter list needs no filter
@@ -209,7 +207,6 @@ void element_tree(const RigPanel& panel, MoreRows& more) {
         select_element(
             panel,
             panel.part.rig.definition().elements[rows[static_cast<std::size_t>(filter.at)].element].name);
-    const bool marks = pending_marks().chosen(panel.workspace.settings) == 1;
     const float shown = std::clamp(static_cast<float>(rows.size()), 1.0f, 10.5f);
     ImGui::BeginChild("elements", {0.0f, shown * row_height() + 2.0f}, false);
     const ImVec2 spacing(ImGui::GetStyle().ItemSpacing.x, row_height() - ImGui::GetTextLineHeight());
@@ -220,46 +217,11 @@ void element_tree(const RigPanel& panel, MoreRows& more) {
     clipper.Begin(static_cast<int>(rows.size()), row_height());
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_row(panel, rows[static_cast<std::size_t>(i)], marks, i == filter.at);
+            draw_row(panel, rows[static_cast<std::size_t>(i)], i == filter.at);
     ImGui::PopStyleVar();
     ImGui::EndChild();
-    if (marks && !rows.empty()) marks_legend(panel.colours);
     if (count == 0) note("No elements.");
     if (count > 0 && rows.empty()) note("No element's name contains this.");
-    add_element_menu(panel);
-    const Selection& selected = panel.part.selected.elements;
-    if (row_button("Remove", 2, !selected.empty(),
-                   selected.several() ? "Removes the selected elements" : "Removes the selected element"))
-        panel.edit("rig.element.remove", {which(panel.part, selected.all())});
-    end_row();
-    const LabSetting setting = pending_marks();
-    more.add("pending poses", {setting.command, {setting.argument}}, marks, [&panel, setting, marks] {
-        bool on = marks;
-        if (ImGui::Checkbox("Mark pending poses", &on))
-            panel.emit(setting.command, {{setting.argument, on ? "shown" : "hidden"}});
-        explain("Two bars beside each element, local and global: filled if not worked out yet.");
-    });
-}
-
-void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {
-    const float em = ImGui::GetFontSize(), w = 0.22f * em, h = 0.30f * em, gap = 0.07f * em;
-    const auto bar = [&](float x, bool waits) {
-        const glm::vec3 c = waits ? colours.accent : colours.text_dim;
-        const ImU32 colour = imgui_u32(c, waits ? 1.0f : 0.5f);
-        ImDrawList* list = ImGui::GetWindowDrawList();
-        const ImVec2 low(x, at.y - h), high(x + w, at.y + h);
-        if (waits)
-            list->AddRectFilled(low, high, colour, 1.0f);
-        else
-            list->AddRect(low, high, colour, 1.0f);
-    };
-    bar(at.x - w - gap, pending == rig::Pending::Local);
-    bar(at.x + gap, pending == rig::Pending::Global);
-}
-
-const char* pending_text(rig::Pending pending) {
-    constexpr const char* words[] = {"none pending", "local pending", "global pending"};
-    return words[static_cast<std::size_t>(pending)];
 }
 
 // Fields for the active control. Editing sets all selected controls of its kind.

@@ -68,16 +68,6 @@ void RigPanel::edit(const char* command, const ArgumentList& arguments) const {
     if (!workspace.clock.playing) emit.continuously("rig.solve");
 }
 
-LabSetting pending_marks() {
-    return {
-        .key = "pending_poses",
-        .command = "view.pending_poses",
-        .title = "Mark pending poses in the tree",
-        .argument = "marks",
-        .help = "Marks in the tree of the Rig lab which local and global transforms are not worked out yet",
-        .choices = {{"hidden", "not marked"}, {"shown", "marked"}}};
-}
-
 NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements) {
     return one_or_list("name", "names", names_of(part, elements));
 }
@@ -122,7 +112,7 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
     if (const FoldingSection open(workspace, "Presets", emit); open) preset_section(emit);
     walk_rows(workspace, emit);
-    folding_section(workspace, "Elements", emit, false, [&](MoreRows& more) { element_tree(panel, more); });
+    if (const FoldingSection open(workspace, "Elements", emit, false); open) element_tree(panel);
     if (const FoldingSection open(workspace, "Units, in order", emit); open) unit_list(panel);
     curve_rows(panel);
     if (const FoldingSection open(workspace, "Solve", emit, false); open) solve_rows(panel);
@@ -133,6 +123,12 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
         emit("rig.copy");
     end_row();
     picture_rows(emit);
+    const bool recorded = panel.part.clip != nullptr;
+    if (row_button(
+            "Export clip", 1, recorded,
+            recorded ? "The bones and how they moved, as a new GLB file" : "Record a clip first, under Clip"))
+        emit("rig.clip.export");
+    end_row();
 }
 
 // Sections of the right panel: the selected element with its poses, the selected unit with its inputs.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/setting.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 #include "app/view/palette.hpp"
@@ -25,14 +24,12 @@ struct RigPanel {
 };
 RigPanel rig_panel(const Workspace& workspace, Emit& emit);
 
-/// Whether the tree marks pending poses.
-LabSetting pending_marks();
-
 // Left panel.
 /// Every element, indented below its parent; a click selects.
-void element_tree(const RigPanel& panel, MoreRows& more);
-/// Every unit in order, with the inputs and outputs of the selected one.
+void element_tree(const RigPanel& panel);
+/// Every unit in order; the inspector shows the selected one.
 void unit_list(const RigPanel& panel);
+void switch_box(const RigPanel& panel, const rig::Unit& unit);
 void curve_rows(const RigPanel& panel);
 void solve_rows(const RigPanel& panel);
 
@@ -66,11 +63,6 @@ NamedArgument which(const RigPart& part, const std::vector<std::size_t>& element
 /// Selects one element or unit; keeps the selection of the other kind.
 void select_element(const RigPanel& panel, const std::string& name);
 void select_unit(const RigPanel& panel, const std::string& name);
-
-/// Two small bars, local and global, filled if pending. `at` is their middle.
-void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours);
-/// "global pending"
-const char* pending_text(rig::Pending pending);
 
 /// The edited vector, but components that were not edited keep their double precision.
 glm::dvec3 edited_vector(const glm::dvec3& before, glm::vec3 shown, glm::vec3 edited);

@@ -250,11 +250,8 @@ bool touched(const rig::Contribution& step) {
 
 void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribution& step) {
     ImGui::PushID(unit.name.c_str());
-    bool on = unit.enabled;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-    if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
-    ImGui::PopStyleVar();
-    if (ImGui::IsItemHovered()) tooltip(on ? "Click to mute this unit" : "Muted; click to run it");
+    switch_box(panel, unit);
+    const bool on = unit.enabled;
     ImGui::SameLine(0.0f, 0.5f * ImGui::GetFontSize());
     const std::string added = !on ? "muted" : touched(step) ? added_text(step) : "nothing";
     const float room =

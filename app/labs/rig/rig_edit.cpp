@@ -175,6 +175,49 @@ void remove_elements(RigPart& part, const std::vector<std::size_t>& elements) {
     redefine(part, std::move(definition));
 }
 
+namespace {
+
+std::string name_of_copy(std::string name) {
+    constexpr const char* sides[][2] = {
+        {"left", "right"}, {"right", "left"}, {"Left", "Right"}, {"Right", "Left"}};
+    for (const auto& [from, to] : sides)
+        if (const std::size_t at = name.find(from); at != name.npos)
+            return name.replace(at, std::string_view(from).size(), to);
+    return name + " mirrored";
+}
+
+}  // namespace
+
+void mirror_branch(RigPart& part, const std::string& top) {
+    element_named(part, top);  // refuses a missing one
+    rig::Definition definition = part.rig.definition();
+    rig::Hierarchy poses = part.state->elements;
+    std::set<std::string> branch{top};
+    for (const std::size_t at : from_the_roots(part.rig, poses)) {
+        const rig::Element& each = part.rig.definition().elements[at];
+        if (each.name != top && !branch.contains(each.parent)) continue;
+        if (each.control && (each.control->minimum || each.control->maximum))
+            throw std::invalid_argument(quoted(each.name) + " has limits, which cannot be mirrored");
+        branch.insert(each.name);
+        rig::Element copy = each;
+        copy.name = name_of_copy(each.name);
+        if (each.name != top) copy.parent = name_of_copy(each.parent);
+        copy.initial = poses.get(part.rig.id(at), rig::Space::Local,
+                                 each.control ? rig::Pose::Current : rig::Pose::Input);
+        copy.initial.translation.x *= -1.0;
+        copy.initial.rotation.y *= -1.0;
+        copy.initial.rotation.z *= -1.0;
+        definition.elements.push_back(std::move(copy));
+    }
+    const std::string name = name_of_copy(top);
+    for (rig::Unit& unit : definition.units)
+        if (auto* const loop = std::get_if<rig::ForEach>(&unit.operation))
+            if (std::ranges::find(loop->roots, top) != loop->roots.end()) loop->roots.push_back(name);
+    redefine(part, std::move(definition));
+    part.selected.elements.only(*part.rig.element(name));
+    part.selected.unit_last = false;
+}
+
 void remove_unit(RigPart& part, const std::string& name) {
     rig::Definition definition = part.rig.definition();
     require_unit(definition, name, [&](rig::Units& units, std::size_t at) { units.erase(at); });
@@ -227,7 +270,7 @@ void add_unit(RigPart& part, rig::Unit unit, int at, const std::string& into) {
     const std::string name = added[0].name;
     list->insert(static_cast<std::size_t>(at < 0 ? count : at), std::move(added[0]));
     redefine(part, std::move(definition));
-    part.selected.unit = name;  // the list unfolds it
+    part.selected.unit = name;  // the inspector shows it
     part.selected.unit_last = true;
 }
 

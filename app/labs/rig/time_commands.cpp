@@ -4,10 +4,13 @@
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
+#include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/names.hpp"
+#include "app/document/picture_arguments.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/units.hpp"
+#include "app/io/character/export.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/code.hpp"
@@ -284,13 +287,19 @@ void record(Workspace& workspace, const Arguments& given) {
     });
 }
 
-void clear_clip(RigPart& part, const Arguments&) {
-    part.clip.reset();
-    part.clip_left.reset();
-}
-
-void solve_clip(RigPart& part, const Arguments&) {
-    start_clip_solve(part);
+void write_clip(Workspace& workspace, const Arguments& given) {
+    const Character character = clip_character(rig_part(workspace));
+    const humanoid::Clip& clip = character.clips.front();
+    const std::filesystem::path path =
+        given.has("path") ? std::filesystem::path(given.text("path")) : new_file(workspace, "clip", ".glb");
+    const ExportReport report = export_clip({.character = character,
+                                             .original = clip,
+                                             .corrected = clip,
+                                             .rate = clip.rate,
+                                             .outputs = &workspace.writes()},
+                                            path);
+    workspace.toast(written_text(path) + ": " + count_text(report.frames, "frame") + " of " +
+                    count_text(clip.channels.size(), "bone"));
 }
 
 /// Keeps the frames solved so far.
@@ -327,11 +336,20 @@ void add_clip_commands(CommandTable& table) {
                                max_clip)},
               "Records the bones of the take as a clip, one pose per frame, 60 per second", Effect::Edit,
               record);
-    table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip", clear_clip));
+    table.add(
+        "rig.clip.export", "Export the clip",
+        {text_argument("path", false,
+                       "a .gltf, .glb or .bvh file; default, in a window: a new .glb beside the scene")},
+        "Writes the rig's bones and the recorded clip", Effect::Look, write_clip);
+    table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip",
+                          [](RigPart& part, const Arguments&) {
+                              part.clip.reset();
+                              part.clip_left.reset();
+                          }));
     table.add(rig_command("rig.clip.solve", "Solve the clip backward", {},
                           "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
                           "cannot express; a few frames per tick",
-                          solve_clip));
+                          [](RigPart& part, const Arguments&) { start_clip_solve(part); }));
     table.add(rig_command("rig.clip.cancel", "Stop the backward solve", {},
                           "Stops the backward solve of the clip", cancel_clip));
 }

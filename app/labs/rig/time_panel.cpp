@@ -80,7 +80,9 @@ void walk_fields(const RigPart& part, const std::vector<std::size_t>& controls, 
 
 std::string clip_text(const RigPart& part) {
     const std::string frames = std::to_string(part.clip->frames()) + " frames";
-    if (!part.clip_left) return frames + ", not solved backward yet.";
+    if (!part.clip_left)
+        return fixed_text(static_cast<double>(part.clip->frames() - 1) * tick_seconds, 2) + " s, " + frames +
+               '.';
     const ClipSolve& solve = *part.clip_left;
     if (solve.running) return std::to_string(solve.done()) + " of " + frames + " solved.";
     if (solve.done() < part.clip->frames())
@@ -100,7 +102,8 @@ void clip_rows(const RigPart& part, Emit& emit) {
     const bool running = part.clip_left && part.clip_left->running;
     const bool something = part.take.last > 0 || !part.walks.empty();
     if (row_button("Record", 3, something,
-                   something ? "Records the bones of the take as a clip" : "Play first"))
+                   something ? "Keeps how the bones moved since the take began, at the flag below the scene"
+                             : "Play first"))
         emit("rig.clip.record");
     if (running) {
         if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");

@@ -27,14 +27,6 @@ std::string operation_title(std::size_t index) {
     return title;
 }
 
-void switch_box(const RigPanel& panel, const rig::Unit& unit) {
-    bool on = unit.enabled;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-    if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
-    ImGui::PopStyleVar();
-    if (ImGui::IsItemHovered()) tooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
-}
-
 void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<double>& times) {
     const rig::Unit& unit = *row.unit;
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
@@ -66,50 +58,6 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
         ImGui::SameLine(at.x + width - time_width + 0.5f * em);
         ImGui::TextDisabled("%s", time.c_str());
     }
-}
-
-/// A line for an input or output of a unit with its current value, on a second line if there is no room.
-void live_line(const std::string& title, const std::string& from, const std::string& value, float margin) {
-    const float gap = 0.6f * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x - margin;
-    const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
-    ImGui::TextDisabled("%s", elided(title, 0.6f * width).c_str());
-    ImGui::SameLine();
-    const std::string both = from.empty() || value.empty() ? from + value : from + ": " + value;
-    const float room = width - std::min(width_of(title), 0.6f * width) - gap;
-    if (from.empty() || width_of(both) <= room) return text_flush_right(elided(both, room));
-    text_flush_right(elided(from, room));
-    if (!value.empty()) text_flush_right(elided(value, ImGui::GetContentRegionAvail().x));
-}
-
-std::string live_text(const UnitInput& input) {
-    if (input.value) return input_text(input, *input.value);
-    const Field& field = *input.field;
-    if (input.is(FieldType::Choice)) return field.choices[static_cast<std::size_t>(field.number(input.at))];
-    if (input.is(FieldType::Pair))
-        return fixed_text(field.number(input.at, 0), 2) + " to " + fixed_text(field.number(input.at, 1), 2);
-    if (input.is(FieldType::Struct) && input.at != nullptr)
-        return field.holds<signal::Curve>()
-                   ? count_text(static_cast<const signal::Curve*>(input.at)->keys.size(), "key")
-               : *static_cast<const rig::TransformFilter*>(input.at) == rig::TransformFilter() ? "all axes"
-                                                                                               : "some axes";
-    return comma_list(input.names());
-}
-
-void live_lines(const RigPanel& panel, const UnitRow& row) {
-    const float margin = (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize();
-    const rig::Unit usual;
-    for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row.unit)) {
-        // Hide the default weight and condition.
-        if (input.path == "/weight" && row.unit->weight == usual.weight) continue;
-        if (input.path == "/when" && row.unit->when == usual.when) continue;
-        live_line(input.title, input.from, live_text(input), margin);
-    }
-    const std::vector<rig::Output> outputs = rig::outputs(row.unit->operation);
-    const rig::UnitState& state = panel.part.state->units[row.at];
-    for (std::size_t i = 0; i < outputs.size(); ++i)
-        live_line(std::string("gives ") + outputs[i].name, "",
-                  output_text(row.unit->operation, state.outputs[i]), margin);
 }
 
 void add_unit_menu(const RigPanel& panel) {
@@ -154,6 +102,14 @@ void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
 
 }  // namespace
 
+void switch_box(const RigPanel& panel, const rig::Unit& unit) {
+    bool on = unit.enabled;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+    if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
+    ImGui::PopStyleVar();
+    if (ImGui::IsItemHovered()) tooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
+}
+
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
     const std::string text = capitalised(rig::message(warning));
     if (text.empty()) return;
@@ -185,7 +141,6 @@ void unit_list(const RigPanel& panel) {
             !ImGui::IsItemVisible())
             ImGui::SetScrollHereY(0.3f);
         if (row.unit->enabled) warning_line(panel, warning, (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize());
-        if (selected) live_lines(panel, row);
         ImGui::PopID();
     }
     if (many) ImGui::EndChild();
@@ -387,7 +342,8 @@ void unit_inspector(const RigPanel& panel) {
     const auto row = unit_row(panel.part, panel.part.selected.unit);
     if (!row) return;
     const PanelSection ids(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
-    // The warning takes the place of the note, so that the fields stay put.
+    // The warning takes the place of the note, in room for two lines, so that the fields stay put.
+    const float top = ImGui::GetCursorPosY();
     const rig::Warning warning = panel.part.state->units[row->at].warning;
     if (row->unit->enabled && warning != rig::Warning::None)
         warning_line(panel, warning);
@@ -395,6 +351,7 @@ void unit_inspector(const RigPanel& panel) {
         note(operation_title(row->unit->operation.index()) +
              (row->inner ? ", run on each element of its for-each" : "") +
              (row->unit->enabled ? "" : ", switched off"));
+    keep_room("about", top, note_height(2));
     name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {

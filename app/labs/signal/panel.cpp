@@ -257,45 +257,61 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
 
 namespace {
 
-std::string or_dash(const std::optional<double>& value, double factor, int decimals, const char* unit) {
-    if (!value) return "-";
-    return fixed_text(factor * *value, decimals) + " " + unit;
+struct Reading {
+    const char* name;
+    std::string text;
+    const char* help;
+};
+
+std::vector<Reading> readings(const signal::Measures& measures) {
+    const bool unstable = measures.following == signal::Following::Unstable,
+               follows = measures.following != signal::Following::DoesNotFollow;
+    const double differs = measures.rate_difference;
+    const auto shown = [&](const std::optional<double>& value, double factor, int decimals,
+                           const char* unit) {
+        return unstable || !value ? "-" : fixed_text(factor * *value, decimals) + " " + unit;
+    };
+    return {
+        {"lag",
+         unstable  ? "unstable"
+         : follows ? shown(measures.lag, 1e3, 1, "ms")
+                   : "does not follow",
+         unstable ? "The output is over ten times the range of the input, and still growing: lag, overshoot, "
+                    "settling and jitter mean nothing."
+         : follows ? "How long the output trails the input: the shift in time that makes them match best."
+                   : "Shifted in time by any amount, the input matches less than a tenth of the output."},
+        {"overshoot", shown(measures.overshoot, 1e2, 1, "%"),
+         "How far it goes beyond a jump of the input, relative to the jump. Needs jumps: a square wave."},
+        {"settling", shown(measures.settling_time, 1e3, 0, "ms"),
+         "From a jump until it stays within 2 % of it. Needs jumps: a square wave."},
+        {"jitter left", shown(measures.jitter, 1e2, 1, "%"),
+         "How much remains of the jitter of the input: second differences, output over input."},
+        {"rate difference", differs > 1e6 ? "> 1e6" : fixed_text(differs, differs < 10.0 ? 3 : 0),
+         "The maximum difference, at any one time, between outputs at 15, 30, 60, 144 Hz and uneven "
+         "frames."}};
 }
 
-/// About four digits at any size; "unbounded" if the value is huge.
-std::string difference_text(double value) {
-    if (value > 1e6) return "unbounded";
-    return fixed_text(value, value < 10.0 ? 3 : 0);
-}
-
-void response_rows(const signal::Measures& measures) {
-    if (measures.following == signal::Following::DoesNotFollow) {
-        reading("lag", "does not follow");
-        explain("Shifted in time by any amount, the input matches less than a tenth of the output.");
-    } else {
-        reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
-        explain("How long the output trails the input: the shift in time that makes them match best.");
+/// Two filters side by side, in their colours, or one.
+void measure_rows(const SignalPart& part, const ChainAnalysis& analysis, const Palette& colours,
+                  const std::vector<std::size_t>& stages) {
+    const std::vector<Reading> left = readings(analysis.stages[stages.front()]),
+                               right = readings(analysis.stages[stages.back()]);
+    const auto colour = [&](std::size_t stage) {
+        const glm::vec3 c = stages.size() > 1 ? stage_colour(colours, part.stages[stage]) : colours.text;
+        return ImVec4(c.x, c.y, c.z, 1.0f);
+    };
+    const float column = 4.1f * ImGui::GetFontSize();  // holds "1184.2 %"
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        const float end = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - column;
+        ImGui::PushStyleColor(ImGuiCol_Text, colour(stages.back()));
+        reading(right[i].name, "%s", right[i].text.c_str());
+        ImGui::PopStyleColor();
+        explain(right[i].help);
+        if (stages.size() < 2) continue;
+        const std::string text = elided(left[i].text, column);
+        ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
+        ImGui::TextColored(colour(stages.front()), "%s", text.c_str());
     }
-    reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
-    explain("How far it goes beyond a jump of the input, relative to the jump. Needs jumps: a square wave.");
-    reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
-    explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
-    reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
-    explain("How much remains of the jitter of the input: second differences, output over input.");
-}
-
-void measure_rows(const signal::Measures& measures) {
-    if (measures.following == signal::Following::Unstable) {
-        reading("response", "unstable");
-        explain(
-            "The output is over ten times the range of the input, and still growing: lag, overshoot, "
-            "settling and jitter mean nothing.");
-    } else {
-        response_rows(measures);
-    }
-    reading("rate difference", "%s", difference_text(measures.rate_difference).c_str());
-    explain(
-        "The maximum difference, at any one time, between outputs at 15, 30, 60, 144 Hz and uneven frames.");
 }
 
 }  // namespace
@@ -371,17 +387,21 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     fit_rows(part, emit);
     if (part.stages.empty()) return;
     const PanelSection each("Read-outs");
+    std::vector<std::size_t> shown;  // those named above the next rows
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         colour_mark(stage_colour(colours, stage));
         ImGui::AlignTextToFramePadding();
-        if (!stage.enabled) {
+        if (stage.enabled) {
+            ImGui::TextUnformatted(stage_title(part, i).c_str());
+            if (i > 0 && !stage.beside) note("with those above it, from the input on");
+            shown.push_back(i);
+        } else {
             ImGui::TextDisabled("%s (off)", stage_title(part, i).c_str());
-            continue;
         }
-        ImGui::TextUnformatted(stage_title(part, i).c_str());
-        if (i > 0 && !stage.beside) note("with those above it, from the input on");
-        measure_rows(analysis.stages[i]);
+        if (shown.size() < 2 && i + 1 < part.stages.size()) continue;
+        if (!shown.empty()) measure_rows(part, analysis, colours, shown);
+        shown.clear();
     }
 }
 

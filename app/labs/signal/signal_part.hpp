@@ -26,7 +26,7 @@ inline constexpr EnumNames<InputKind, 6> input_kinds{
     {{"hand", "Hand", "Drag the orange ball up and down: its height is the input."},
      {"square", "Square wave", "Jumps between two values."},
      {"sine", "Sine", "A steady swing."},
-     {"noise", "Noise", "A slow drift that a sensor has made unsteady."},
+     {"noise", "Noise", "A slow drift with sensor noise."},
      {"recorded", "Recorded", "What the hand did last, over and over."},
      {"csv", "CSV", "The rows of a file, over and over."}}};
 

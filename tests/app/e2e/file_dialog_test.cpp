@@ -57,6 +57,21 @@ TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     EXPECT_EQ(turn.size, image.size) << "as chosen before";
 }
 
+TEST_F(FileDialogTest, AVideoOfARunningMotorIsOneTurnWithoutAFrameTwice) {
+    run("scene.save", {{"path", (folder_ / "leg.json").string()}});
+    run("lab.open", {{"name", "linkage"}});
+    run("linkage.preset", {{"name", "four_bar"}});
+    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 360}});
+    wait(90);
+    key("ctrl+shift+p");
+    EXPECT_TRUE(says(text(), "1.00 s to 0.03 s"));
+    click(at("Record"));
+    wait(40);
+    const Apng turn = read_apng(read(folder_ / "leg-1.png"));
+    ASSERT_EQ(turn.frames.size(), 30u);
+    EXPECT_NE(turn.frames.front().image.rgba, turn.frames.back().image.rgba);
+}
+
 TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
     run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     open();

@@ -306,23 +306,17 @@ Span widened_by(const Span& input, const Values& output) {
     return widened(input, all);
 }
 
-TEST(SignalSpan, OfAWaveIsItsAmplitudeFromTheStartOn) {
+TEST(SignalSpan, IsAWavesAmplitudeAHandsUnitOrAFilesRange) {
     const SignalInput square{.kind = InputKind::Square, .amplitude = 3.0};
     EXPECT_EQ(span_of(square, {}), (Span{-3.0, 3.0}));
     EXPECT_EQ(span_of(square, Values{3.0, 3.0}), (Span{-3.0, 3.0})) << "before its first jump too";
     EXPECT_EQ(span_of(square, Values{-7.0, 1.0}), (Span{-7.0, 3.0})) << "and what was there before it";
     const SignalInput inverted{.kind = InputKind::Sine, .amplitude = -2.0};
     EXPECT_EQ(span_of(inverted, {}), (Span{-2.0, 2.0}));
-}
-
-TEST(SignalSpan, OfAHandIsAUnitEitherWayOrMore) {
     const SignalInput hand{.kind = InputKind::Hand};
     EXPECT_EQ(span_of(hand, {}), (Span{-1.0, 1.0}));
     EXPECT_EQ(span_of(hand, Values{0.01, 0.02}), (Span{-1.0, 1.0}));
     EXPECT_EQ(span_of(hand, Values{-5.0, 0.0, 2.0}), (Span{-5.0, 2.0}));
-}
-
-TEST(SignalSpan, OfAFileIsItsRange) {
     const SignalInput file{.kind = InputKind::Csv};
     EXPECT_EQ(span_of(file, Values{100.0, 101.0, 99.0}), (Span{99.0, 101.0}));
     for (const double level : {0.0, 1e-5, 4.0, -1e6}) {

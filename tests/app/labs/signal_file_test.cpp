@@ -101,7 +101,7 @@ TEST(SignalInputs, ASquareWaveIsUpRightAfterItsJump) {
     EXPECT_EQ(input_at(input, 2.0), -2.0);
 }
 
-TEST(SignalInputs, ARecordingRepeatsAllOfItsRows) {
+TEST(SignalInputs, RowsHoldForTheirDtAndRepeat) {
     InputRows rows;
     for (int i = 0; i < 7; ++i) rows.push_back({1.0 / 60.0, 10.0 + i});
     const SignalInput input{.kind = InputKind::Recorded,
@@ -112,16 +112,13 @@ TEST(SignalInputs, ARecordingRepeatsAllOfItsRows) {
         time += 1.0 / 60.0;
         ASSERT_EQ(input_at(input, time), 10.0 + tick % 7) << tick;
     }
-}
-
-TEST(SignalInputs, AFilesRowsHoldForTheirDt) {
-    const InputRows rows{{0.1, 1.0}, {0.0, 5.0}, {0.3, -2.0}};
-    const SignalInput input{.kind = InputKind::Csv, .file = std::make_shared<const InputRows>(rows)};
+    const InputRows lines{{0.1, 1.0}, {0.0, 5.0}, {0.3, -2.0}};
+    const SignalInput file{.kind = InputKind::Csv, .file = std::make_shared<const InputRows>(lines)};
     for (const double start : {0.0, 0.4, 40.0}) {
-        EXPECT_EQ(input_at(input, start + 0.05), 1.0);
-        EXPECT_EQ(input_at(input, start + 0.1), 1.0) << "up to its end";
-        EXPECT_EQ(input_at(input, start + 0.11), -2.0) << "a row without time is never seen";
-        EXPECT_EQ(input_at(input, start + 0.4), -2.0);
+        EXPECT_EQ(input_at(file, start + 0.05), 1.0);
+        EXPECT_EQ(input_at(file, start + 0.1), 1.0) << "up to its end";
+        EXPECT_EQ(input_at(file, start + 0.11), -2.0) << "a row without time is never seen";
+        EXPECT_EQ(input_at(file, start + 0.4), -2.0);
     }
 }
 

@@ -15,13 +15,6 @@ using namespace app;
 constexpr glm::ivec2 sizes[] = {{1024, 640}, {1280, 720}, {2560, 1440}};
 constexpr float scales[] = {1.0f, 1.5f, 2.0f};
 
-std::vector<std::string> lab_names() {
-    std::vector<std::string> names;
-    const Labs labs;
-    for (const auto& lab : labs.all()) names.push_back(lab->name());
-    return names;
-}
-
 /// Titles that end in "..." because a question follows.
 bool means_dots(const std::string& text) {
     return text == "Save..." || text == "Open..." || text == "Save as..." || text == "Open ..." ||
@@ -359,7 +352,7 @@ TEST_P(LayoutTest, FitsTextsThatAreAThirdLonger) {
     report();
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, LayoutTest, testing::ValuesIn(lab_names()),
+INSTANTIATE_TEST_SUITE_P(Labs, LayoutTest, testing::ValuesIn(names_of_labs()),
                          [](const auto& lab) { return lab.param; });
 
 }  // namespace

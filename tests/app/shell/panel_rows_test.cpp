@@ -15,13 +15,6 @@ constexpr glm::ivec2 high_window{1440, 3000};  ///< shows every row without scro
 constexpr glm::ivec2 unscrolled{1440, 2400};   ///< nothing is out of view when a lab opens
 constexpr std::size_t max_rows = 18;
 
-std::vector<std::string> names_of_labs() {
-    std::vector<std::string> names;
-    const Labs labs;
-    for (const auto& lab : labs.all()) names.push_back(lab->name());
-    return names;
-}
-
 class PanelRows : public testing::TestWithParam<std::string>, protected DrivenApp {
   protected:
     PanelRows() : DrivenApp(unscrolled) {
@@ -204,7 +197,6 @@ TEST_F(RowsUnderMore, UnfoldForTheirCommandInEveryLab) {
         {"rope", {}, "rope.jitter dial=0.1", "frame-time jitter"},
         {"rope", {}, "rope.settings longest_frame=0.1", "longest frame"},
         {"rig", {}, "rig.flips degrees=40", "flip over"},
-        {"rig", {}, "view.pending_poses marks=shown", "Mark pending poses"},
         {"humanoid", {}, "humanoid.flips degrees=40", "flip over"},
         {"humanoid", {}, "humanoid.ground kind=mesh path=" + mesh, "mesh file"},
         {"humanoid", {}, "humanoid.t_pose on=true", "Rest as a T-pose"},

@@ -6,6 +6,13 @@
 
 namespace tendril::test {
 
+inline std::vector<std::string> names_of_labs() {
+    std::vector<std::string> names;
+    const app::Labs labs;
+    for (const auto& lab : labs.all()) names.push_back(lab->name());
+    return names;
+}
+
 class DrivenApp {
   protected:
     /// Pixels of the window.

@@ -60,10 +60,12 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     ASSERT_GT(elements.size(), 12u) << "the tree has a filter";
     FrameRecorder recorder;
     wait(3);
-    std::optional<glm::vec2> at;
-    for (const DrawnText& each : recorder.frame().texts)
+    std::optional<glm::vec2> at, mirror;
+    for (const DrawnText& each : recorder.frame().texts) {
         if (each.text == "Filter by name") at = 0.5f * (each.box.min + each.box.max);
-    ASSERT_TRUE(at);
+        if (each.text == "Mirror") mirror = 0.5f * (each.box.min + each.box.max);
+    }
+    ASSERT_TRUE(at && mirror);
     const auto keys = [&](const std::vector<const char*>& pressed) {
         click(*at, 30);
         type(pressed);
@@ -74,6 +76,17 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     const std::string second = keys({"escape", "down", "down", "enter"});
     EXPECT_NE(second, "");
     EXPECT_NE(second, first) << "the whole tree again, and its second row";
+    run("rig.select", {{"element", "arm 2"}});
+    click(*mirror, 3);
+    const Json from = element("arm 2").at("local"), to = element("arm 2 mirrored").at("local");
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(to.at("translation")[i].get<double>(),
+                    (i == 0 ? -1.0 : 1.0) * from.at("translation")[i].get<double>(), 1e-9);
+    EXPECT_NEAR(to.at("rotation")[1].get<double>(), -from.at("rotation")[1].get<double>(), 1e-9);
+    EXPECT_EQ(element("arm 2 joint 6 mirrored").at("parent"), "arm 2 joint 5 mirrored");
+    const RigPart& part = rig_part(app_.workspace());
+    EXPECT_EQ(part.selected_element(), "arm 2 mirrored");
+    EXPECT_EQ(std::get<rig::ForEach>(part.rig.definition().units[0].operation).roots.size(), 6u);
 }
 
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {

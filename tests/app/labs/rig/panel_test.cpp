@@ -362,11 +362,10 @@ TEST_F(RigPanels, CountsAreWholeAndALimitOf0MeansNone) {
     tick();
     EXPECT_EQ(input_text(input("of count", "/value"), rig::Value(12.0)), "12");
     run("rig.select", {{"unit", loop->name}});
-    for (const std::string& text : {panel_text(), inspector_text()}) {
-        const std::size_t at = text.find("gives result " + count);
-        ASSERT_NE(at, std::string::npos) << text;
-        EXPECT_NE(text[at + 13 + count.size()], '.') << text;
-    }
+    const std::string text = inspector_text();
+    const std::size_t at = text.find("gives result " + count);
+    ASSERT_NE(at, std::string::npos) << text;
+    EXPECT_NE(text[at + 13 + count.size()], '.') << text;
     run("rig.preset", {{"name", "aim"}});
     EXPECT_EQ(input_text(input("aim", "/max_speed"), rig::Value(0.0)), "no limit");
     EXPECT_EQ(input_text(input("aim", "/max_speed"), rig::Value(90.0)), "90.0\xC2\xB0/s");
