@@ -108,6 +108,28 @@ TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
         }
 }
 
+/// Taut between two pins, no sideways force is balanced; a dragged end whips.
+TEST(RopeResolution, KeepsItsLengthInTheAirTautOrDragged) {
+    for (const double rate : {240.0, 960.0})
+        for (const int segments : {16, 64, 256})
+            for (const bool taut : {true, false}) {
+                World world = world_with({.substep = 1.0 / rate});
+                world.add_rope("rope", {.from = {0, 0, 0},
+                                        .to = {1, 0, 0},
+                                        .segments = segments,
+                                        .pin_start = true,
+                                        .pin_end = taut});
+                double worst = 0.0;
+                for (int i = 0; i < 3 * static_cast<int>(rate); ++i) {
+                    const auto t = static_cast<float>(i / rate);
+                    if (!taut) world.pin(0, {0.3f * std::sin(6.0f * t), 0.2f * std::sin(9.0f * t), 0.0f});
+                    world.advance(world.settings().substep);
+                    worst = std::max(worst, stretch(world));
+                }
+                EXPECT_LE(worst, 5e-4) << segments << (taut ? " taut" : " dragged") << " at 1/" << rate;
+            }
+}
+
 /// A nearby collider that is not touched changes no bit.
 TEST(RopeResolution, ABeamThatIsNotTouchedChangesNothing) {
     std::array<World, 2> worlds{world_with({.damping = 0.0f}), world_with({.damping = 0.0f})};
