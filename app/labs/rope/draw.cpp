@@ -16,6 +16,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float plane_radius = 3.0f;       ///< visible radius of an infinite plane, metres
+constexpr double heavy_from = 4.0;         ///< multiple of the mass of a rope's lightest particle
 constexpr double weight_density = 2500.0;  ///< kg/m^3, the density of stone
 constexpr glm::vec4 unseen{0.0f};          ///< for invisible strokes that only catch the pointer
 
@@ -142,9 +143,10 @@ class Drawing {
         const std::vector<double>& mass = world_.state().mass;
         for (const rope::Body& body : world_.state().bodies) {
             if (body.kind != rope::Body::Kind::Rope) continue;
-            const double heavy = mass_of_weights(world_.state(), body);
+            const auto first = mass.begin() + static_cast<std::ptrdiff_t>(body.first);
+            const double lightest = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
             for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-                if (mass[i] < heavy) continue;
+                if (mass[i] < heavy_from * lightest) continue;
                 const auto ball =
                     static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
                 if (ball <= radius(body)) continue;

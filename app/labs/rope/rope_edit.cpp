@@ -167,13 +167,6 @@ std::size_t body_with(const rope::State& state, std::size_t particle, std::size_
     return near;
 }
 
-double mass_of_weights(const rope::State& state, const rope::Body& rope) {
-    constexpr double heavy_from =
-        4.0;  // half of a segment hangs on an end, so all others have twice its mass
-    const auto first = state.mass.begin() + static_cast<std::ptrdiff_t>(rope.first);
-    return heavy_from * *std::min_element(first, first + static_cast<std::ptrdiff_t>(rope.count));
-}
-
 std::vector<std::size_t> held_particles(const RopeRacer& racer) {
     std::vector<std::size_t> held;
     const rope::Body* body = racer.hold ? racer.world->find(racer.hold->body) : nullptr;

@@ -51,8 +51,6 @@ const rope::Collider& collider_of(const NamedWorld& world, std::string_view name
 const rope::Tie& tie_of(const NamedWorld& world, std::string_view name);
 /// The index of the body that contains a particle, searched from the body `near`.
 std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near);
-/// The mass from which a rope's particle is a weight that hangs on it: much more than the lightest one's.
-double mass_of_weights(const rope::State& state, const rope::Body& rope);
 /// The particle that two arguments name.
 struct NamedParticle {
     std::string body;

@@ -1,9 +1,6 @@
 #include "app/labs/rope/rope_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tendril/magnitude.hpp>
 
 #include "app/document/argument.hpp"
@@ -97,11 +94,9 @@ std::span<const FieldText> field_texts<BodySettings>() {
         {.name = "corner", .help = "The first particle of a cloth's first row."},
         {.name = "along", .help = "From the corner to the other end of the first row."},
         {.name = "down", .help = "From the corner to the last row."},
-        fine_row(
-            "length",
-            "How long a rope, a row of a cloth or a strand of hair is. All its segments change in "
-            "proportion, and its mass with them; what hangs on a rope keeps its own. Default for a rope: "
-            "the distance of its ends."),
+        fine_row("length",
+                 "How long a rope, a row of a cloth or a strand of hair is. All its segments change in "
+                 "proportion, and its mass with them. A rope by default just joins its two ends."),
         fine_row("width", "Of a cloth, across its rows."),
         {.name = "segments",
          .label = "segments",
@@ -325,57 +320,6 @@ std::vector<Field> body_fields(const BodySettings& of) {
     return rows;
 }
 
-namespace {
-
-/// What hangs on a rope keeps its mass. A rope that hangs between its two pinned ends keeps its shape and its
-/// strain too, so that it does not whip and tear; others, and tied ones, stay where they are.
-void set_length(NamedWorld& world, const std::string& name, float metres) {
-    constexpr double most_strain = 1.01;  // of a rope that hangs; more is a fault to leave behind
-    const double heavy = mass_of_weights(world.state(), *world.find(name)),
-                 rest = world.length(*world.find(name));
-    const std::vector<double> mass = world.state().mass;
-    world.change(name, &rope::World::set_length, metres);
-    const rope::Body body = *world.find(name);
-    if (body.kind != rope::Body::Kind::Rope) return;
-    rope::State state = world.state();
-    for (std::size_t i = body.first; i < body.first + body.count; ++i)
-        if (mass[i] >= heavy) state.mass[i] = mass[i];
-    const std::size_t last = body.count - 1;
-    const auto inside = [&](std::size_t particle) { return particle - body.first <= last; };
-    const auto tied = [&](const rope::Tie& tie) { return inside(tie.a) || inside(tie.b); };
-    glm::dvec3* const at = &state.position[body.first];
-    const glm::dvec3 from = at[0], to = at[last];
-    double before = 0.0;
-    for (std::size_t i = 0; i < last; ++i) before += glm::distance(at[i], at[i + 1]);
-    const double strain = before / rest, apart = glm::dot(to - from, to - from);
-    const double all = world.length(body) * (strain > 1.0 && strain < most_strain ? strain : 1.0);
-    const double now = all * all - apart, then = before * before - apart;
-    const bool hangs = world.pinned(body.first) && world.pinned(body.first + last) &&
-                       std::ranges::count_if(state.pins, inside, &rope::Pin::particle) == 2 &&
-                       std::ranges::none_of(state.ties, tied);
-    if (!hangs || last < 2 || !(now > 0.0)) return world.put(std::move(state));
-    for (std::size_t i = 1; i < last; ++i) {  // as far off the line between the pins as its length takes
-        const double part = static_cast<double>(i) / static_cast<double>(last);
-        const glm::dvec3 line = glm::mix(from, to, part);
-        at[i] =
-            line + (then > 1e-6 * all * all ? std::sqrt(now / then) * (at[i] - line)
-                                            : glm::dvec3(0, -2.0 * std::sqrt(now) * part * (1.0 - part), 0));
-    }
-    const auto keep = [&](std::size_t fixed, std::size_t moved) {
-        const glm::dvec3 by = at[moved] - at[fixed];
-        at[moved] = at[fixed] + all / static_cast<double>(last) / std::max(glm::length(by), 1e-12) * by;
-    };
-    for (int pass = 0; pass < 256; ++pass) {  // FABRIK: for a parabola under 1e-6 of a segment is left
-        for (std::size_t i = 1; i <= last; ++i) keep(i - 1, i);
-        at[last] = to;
-        for (std::size_t i = last; i > 0; --i) keep(i, i - 1);
-        at[0] = from;
-    }
-    world.put(std::move(state));
-}
-
-}  // namespace
-
 void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     using Kind = rope::Link::Kind;
     using rope::World;
@@ -397,7 +341,7 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
         resample_body(edit, name,
                       {static_cast<std::size_t>(*wanted.columns), static_cast<std::size_t>(*wanted.rows)});
     NamedWorld& world = edit.world();
-    if (wanted.length != now.length) set_length(world, name, wanted.length);
+    if (wanted.length != now.length) world.change(name, &World::set_length, wanted.length);
     if (wanted.width != now.width) world.change(name, &World::set_width, *wanted.width);
     if (given.has("mass")) world.change(name, &World::set_mass, wanted.mass);
     if (given.has("density")) world.change(name, &World::set_density, *wanted.density);
