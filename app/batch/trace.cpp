@@ -68,8 +68,7 @@ void print_lines(const TraceFindings& findings, const TraceReader& reader, Outpu
     for (const auto& chain : findings.chains) {
         const std::string name = chain.name.empty() ? "" : printable(chain.name) + ": ";
         for (const TracedIncident& each : chain.incidents) {
-            out.write(name + each.title(reader.header().bones, reader.conventions()) + ": " + each.cause +
-                      '\n');
+            out.write(name + each.text(reader.header().bones, reader.conventions()) + '\n');
             if (each.prevented.tried) out.write("  " + each.prevented.text() + '\n');
             for (const Prevention& change : each.prevented.by)
                 out.write("  prevented by: " + change.text(reader.conventions()) + '\n');

@@ -244,6 +244,19 @@ TEST(RopeEdit, MaterialsChangeInPlace) {
     expect_valid(named);
 }
 
+/// Also where segments are not equal.
+TEST(RopeEdit, ALongerRopeKeepsTheWeightsOnIt) {
+    World named = world_with({});
+    named.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .density = 2.0f});
+    rope::State state = named.state();
+    state.links[0].rest = 0.5f, state.mass[0] = 0.5, state.mass[1] = 0.75 + 0.1, state.mass[4] += 3.0;
+    rope::World world = allowed(rope::World::from_state(state));
+    allow(world.set_length(named.id("rope"), 2.5f));
+    const double expected[] = {1.0, 1.5 + 0.1, 1.0, 1.0, 0.5 + 3.0};
+    for (std::size_t i = 0; i < std::size(expected); ++i)
+        EXPECT_NEAR(world.state().mass[i], expected[i], 1e-6) << i;
+}
+
 TEST(RopeEdit, ClearLeavesOnlySettings) {
     World world = three_ropes();
     rope::Settings settings;

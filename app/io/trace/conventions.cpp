@@ -187,9 +187,10 @@ std::string Conventions::place(glm::vec3 p) const {
 }
 
 std::string Conventions::length(double length) const {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3g %s", length / metres(), trace_units.name(unit.value));
-    return text;
+    const double value = length / metres();
+    const double digits = value > 0.0 ? std::floor(std::log10(value)) : 0.0;
+    return fixed_text(value, static_cast<int>(std::clamp(2.0 - digits, 0.0, 6.0))) + ' ' +
+           trace_units.name(unit.value);
 }
 
 glm::quat Conventions::rotation(const glm::dvec4& r) const {

@@ -79,6 +79,10 @@ struct TracedIncident : ik::ChainIncident {
 
     /// "Frame 60: flip at joint 1 (elbow), 128 degrees". Bones as in the header; may be empty.
     std::string title(const std::vector<std::string>& bones, const Conventions& space) const;
+    /// The title, and why.
+    std::string text(const std::vector<std::string>& bones, const Conventions& space) const {
+        return title(bones, space) + ": " + cause;
+    }
 };
 
 /// What was found in a trace, chain by chain.

@@ -206,9 +206,7 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
         said += "; shown: frames " + std::to_string(first) + " to " +
                 std::to_string(first + trace.frames.size() - 1) + " with " + std::to_string(shown);
     const TracedIncident* const found = first_shown(trace);
-    return found == nullptr
-               ? said
-               : said + ". " + found->title(trace.bones, trace.conventions) + ": " + found->cause;
+    return found == nullptr ? said : said + ". " + found->text(trace.bones, trace.conventions);
 }
 
 /// Puts the trace on the strip and shows its first fault; with `same_frames` the strip stays at its moment.

@@ -180,15 +180,15 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     start_buttons("race.open", emit);
     end_row();
     if (row_button("Copy numbers as CSV", 1, true,
-                   "Every solver's tip to target in metres, at each iteration"))
+                   "Every solver's distance from the target, time and status at each iteration"))
         emit("race.copy");
     const std::string film = "Writes the race from its start to its end as an animated PNG of " +
                              fixed_text(race_film_seconds(shown.last()), 0) +
-                             " s beside the scene, with names, iterations and errors. The command "
+                             " s beside the scene, with names, iterations, errors and the plot. The command "
                              "race.record also writes GIF and MP4, at "
                              "any size and pace.";
     if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
-    if (row_button("Save a picture", 2, true, "Saves or copies the scene with the plot, as Ctrl+P does"))
+    if (row_button("Save a picture", 2, true, "Saves or copies the scene, as Ctrl+P does; with the plot by iteration unless side by side"))
         emit("view.picture_dialog");
     end_row();
 }

@@ -72,8 +72,9 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                     change(same, given);
                 });
             }
-            if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
-                part.quiet_ticks = 0, part.start.reset();
+            if (part.world == old.world && part.swings == old.swings && part.walker == old.walker) return;
+            part.quiet_ticks = 0;
+            if (!holds(old) && !holds(part)) part.start.reset();  // a whole drag is one change
         });
 }
 

@@ -96,7 +96,8 @@ std::span<const FieldText> field_texts<BodySettings>() {
         {.name = "down", .help = "From the corner to the last row."},
         fine_row("length",
                  "How long a rope, a row of a cloth or a strand of hair is. All its segments change in "
-                 "proportion, and its mass with them. A rope by default just joins its two ends."),
+                 "proportion, and its mass with them; a weight on a particle stays. Default for a rope: the "
+                 "distance of its ends."),
         fine_row("width", "Of a cloth, across its rows."),
         {.name = "segments",
          .label = "segments",

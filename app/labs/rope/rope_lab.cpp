@@ -211,20 +211,30 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
-/// Whether links are, taken together, shorter than they rest.
-bool squeezed(const rope::State& state) {
-    double longer = 0.0;  // metres
-    for (const rope::Link& each : state.links)
-        if (each.kind == rope::Link::Kind::Stretch)
-            longer += glm::distance(state.position[each.a], state.position[each.b]) -
-                      static_cast<double>(each.rest);
-    return longer < 0.0;
+/// The body with the largest length error.
+const rope::Body& worst_body(const NamedWorld& world) {
+    const auto error = [&](const rope::Body& body) { return world.length_error(body); };
+    return *std::ranges::max_element(world.state().bodies, {}, error);
 }
 
-/// The name of the body with the largest length error.
-const std::string& worst_body(const NamedWorld& world) {
-    const auto error = [&](const rope::Body& body) { return world.length_error(body); };
-    return world.name(*std::ranges::max_element(world.state().bodies, {}, error));
+/// Whether the link of a body that is furthest from its rest length is shorter.
+bool squeezed(const rope::State& state, const rope::Body& body) {
+    double worst = 0.0;  // strain
+    for (const rope::Link& each : state.links) {
+        if (each.kind != rope::Link::Kind::Stretch || each.a - body.first >= body.count || each.rest <= 0.0f)
+            continue;
+        const double strain = glm::distance(state.position[each.a], state.position[each.b]) / each.rest - 1.0;
+        if (std::abs(strain) > std::abs(worst)) worst = strain;
+    }
+    return worst < 0.0;
+}
+
+/// Whether the ropes had more links and ties where a restart leads.
+bool was_whole(const RopePart& part) {
+    const auto joints = [](const RopePart& at) {
+        return at.world->state().links.size() + at.world->state().ties.size();
+    };
+    return part.start && joints(dynamic_cast<const RopePart&>(*part.start)) > joints(part);
 }
 
 constexpr const char* halve_substep = "Halve the substep";
@@ -297,16 +307,17 @@ Verdict rope_verdict(const RopePart& part) {
     if (torn > 0)
         return {"Torn", Verdict::Kind::Open,
                 count_text(torn, "link") + " tore in the last ten seconds: drag the timeline back to see it.",
-                part.start ? std::optional(restart_cure()) : std::nullopt};
+                was_whole(part) ? std::optional(restart_cure()) : std::nullopt};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
         if (stretches(*part.world)) {
-            const bool slack = squeezed(part.world->state());
+            const rope::Body& worst = worst_body(*part.world);
+            const bool slack = squeezed(part.world->state(), worst);
             return {
                 (slack ? "Squeezed by " : "Stretched by ") + percent, Verdict::Kind::Open,
-                worst_body(*part.world) +
-                    (slack ? " is longer than the space it has: it unfolds as it moves."
+                part.world->name(worst) +
+                    (slack ? " is shorter than its rest length; it lengthens once it moves."
                            : " may stretch: its own stretch, or the compliance under Solver, is above 0.")};
         }
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps.",

@@ -53,6 +53,7 @@ std::vector<std::filesystem::path> RopePart::files() const {
 std::size_t RopePart::bytes() const {
     std::size_t all = sizeof(*this) + bytes_of(*this) + bytes_in(swings);
     for (const RopeRacer& rival : rivals) all += bytes_of(rival);
+    if (start) all += start->bytes();
     return selection ? all + bytes_in(selection->particles.all()) : all;
 }
 

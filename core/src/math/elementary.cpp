@@ -163,7 +163,7 @@ double angle_of(double y, double x) {
             if (std::isinf(along)) across = std::isinf(across) ? 0x1p900 : 0.0, along = 0x1p900;
             across *= 0x1p-200, along *= 0x1p-200;
         }
-        if (along < 0x1p-800) across *= 0x1p200, along *= 0x1p200;
+        if (along < 0x1p-400) across *= 0x1p600, along *= 0x1p600;
     } else if (std::isinf(along)) {
         across = std::isinf(across) ? 1.0 : 0.0, along = 1.0;
     }

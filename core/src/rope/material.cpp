@@ -1,6 +1,8 @@
 // Changes of a body's material.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "math/checks.hpp"
@@ -91,6 +93,20 @@ void World::scale_mass(const Body& body, double factor) noexcept {
         state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
 }
 
+/// Of a rope with particles at these places along it. The lightest part of it has no weight on it.
+void World::lengthen_mass(const Body& rope, std::span<const double> along, double ratio) noexcept {
+    const auto half_links = [&](std::size_t i) {
+        return 0.5 * (along[std::min(i + 1, rope.count - 1)] - along[i > 0 ? i - 1 : 0]);
+    };
+    double density = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < rope.count; ++i)
+        if (half_links(i) > 0.0) density = std::min(density, state_.mass[rope.first + i] / half_links(i));
+    for (std::size_t i = 0; i < rope.count; ++i) {
+        double& mass = state_.mass[rope.first + i];
+        mass = std::clamp(mass + (ratio - 1.0) * density * half_links(i), 1e-30, 1e30);
+    }
+}
+
 double World::compliance(const Body& body, Link::Kind kind) const {
     const auto link = std::find_if(state_.links.begin(), state_.links.end(), [&](const Link& each) {
         return each.kind == kind && detail::owns(body, each);
@@ -167,7 +183,10 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
         const double soft = material * detail::unit_link_compliance(*changed, grid, link);
         link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
     }
-    scale_mass(*changed, ratio);
+    if (rows && changed->kind == Body::Kind::Rope)
+        lengthen_mass(*changed, was.along, ratio);
+    else
+        scale_mass(*changed, ratio);
     take_stretch(*changed);
     return {};
 }

@@ -262,6 +262,28 @@ TEST_F(CureButton, RestartsARopeThatTore) {
     EXPECT_EQ(verdict(), "Torn");
 }
 
+TEST_F(CureButton, RestartsARopeThatADragTore) {
+    run("lab.open", {{"name", "rope"}});
+    run("rope.clear");
+    run("rope.add",
+        {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"length", 1.2}, {"segments", 8}});
+    for (const int particle : {0, 8}) run("rope.pin", {{"rope", "line"}, {"particle", particle}});
+    run("rope.set", {{"rope", "line"}, {"tear", 0.1}});
+    run("time.play");
+    wait(5);
+    for (const double y : {1.6, 1.0, 0.5}) {
+        run("rope.hold", {{"rope", "line"}, {"particle", 4}, {"at", {0.5, y, 0}}});
+        wait(5);
+    }
+    run("rope.let_go");
+    wait(20);
+    run("time.pause");
+    ASSERT_EQ(verdict(), "Torn");
+    click(at("Restart"));
+    EXPECT_EQ(app_.state().at("ropes").size(), 1u);
+    EXPECT_NE(verdict(), "Torn");
+}
+
 /// As a person expects of a chain that reaches, though the command alone leaves the tip where it is.
 TEST_F(CureButton, IsNotNeededForAJointMore) {
     run("chain.reset");

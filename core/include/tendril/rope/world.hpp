@@ -146,7 +146,7 @@ class World {
     Result set_compliance(BodyId body, Link::Kind kind, double compliance);
     double compliance(const Body& body, Link::Kind kind) const;  ///< from the first such link
     /// Length of a rope, a row of a cloth, or a strand of hair, metres: all its links and its mass change in
-    /// proportion. Refused for a body of length 0.
+    /// proportion; a weight on a particle of a rope stays. Refused for a body of length 0.
     Result set_length(BodyId body, float metres);
     /// The same across the rows of a cloth.
     Result set_width(BodyId cloth, float metres);
@@ -211,6 +211,7 @@ class World {
     Collider* found(ColliderId collider) noexcept;
     void take_stretch(Body& body) noexcept;
     void scale_mass(const Body& body, double factor) noexcept;
+    void lengthen_mass(const Body& rope, std::span<const double> along, double ratio) noexcept;
     Result scale(BodyId body, const char* operation, float metres, bool rows);
 
     State state_;
