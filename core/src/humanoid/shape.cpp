@@ -158,19 +158,16 @@ class Shape {
             if (!upper || *upper + 3 >= path.size()) return {0.0, 0.0, 0.0};
             return minus(at(path[*upper + 3]), at(path[*upper + 2]));
         };
-        const glm::dvec3 one = toe_of(pair.a), other = toe_of(pair.b), toes = plus(one, other);
+        const glm::dvec3 toes = plus(toe_of(pair.a), toe_of(pair.b));
         if (std::sqrt(toes.x * toes.x + toes.z * toes.z) > 0.03 * height_) {
             left_ = {toes.z, 0.0, -toes.x};  // up x forward
             found_.left_known = true;
         }
         const auto [left, right] = left_first(pair, left_);
-        // Toes point the same way; the end sites that a writer of BVH makes up may point apart.
-        const bool apart = dot(one, other) < 0.0;
-        const auto toes_or_none = [&](Bone bone) { return apart ? std::nullopt : std::optional(bone); };
         set_limb(longest(left), {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot}, Bone::LeftUpperLeg,
-                 toes_or_none(Bone::LeftToes));
+                 Bone::LeftToes);
         set_limb(longest(right), {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot},
-                 Bone::RightUpperLeg, toes_or_none(Bone::RightToes));
+                 Bone::RightUpperLeg, Bone::RightToes);
         if (!arms_) return;
         const auto [left_arm, right_arm] = left_first(*arms_, left_);
         set_limb(longest(left_arm), {Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
