@@ -57,29 +57,11 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& wo
         placed.push_back(humanoid::place(each, wearer.map, wearer.placed));
         if (!joined_part(each.bone)) hard.push_back(placed.back());
     }
-    // Capsules along bones do not cover the seat of a skin, which then shows through a cape: one more, from
-    // leg to leg, leaves at most 6 mm of the built-in figure outside. On a stick figure a cape would only
-    // catch.
-    using enum humanoid::Bone;
-    const auto of = [&](humanoid::Bone bone) {
-        return std::ranges::find(wearer.capsules, bone, &humanoid::BodyCapsule::bone);
-    };
-    const auto hips = of(Hips), left = of(LeftUpperLeg), right = of(RightUpperLeg);
-    const bool seat = wearer.loaded.character.skin.mesh &&
-                      std::ranges::count(std::array{hips, left, right}, wearer.capsules.end()) == 0;
-    if (seat) {
-        const dvec3 a = wearer.placed[static_cast<std::size_t>(wearer.map[LeftUpperLeg].node)].position,
-                    b = wearer.placed[static_cast<std::size_t>(wearer.map[RightUpperLeg].node)].position;
-        hard.push_back(
-            {glm::mix(a, b, 0.15), glm::mix(a, b, 0.85), glm::mix(left->radius, hips->radius, 0.6)});
-    }
-    const std::span<const humanoid::PlacedCapsule> trunk = hard;
     std::vector<NamedShape> all;
     const auto add = [&](std::string name, const humanoid::PlacedCapsule& at, std::optional<double> from) {
         double radius = at.radius;
         if (from)
-            for (const humanoid::PlacedCapsule& each :
-                 trunk.first(trunk.size() - (seat && *from > 0.0)))  // thighs overlap the seat in any pose
+            for (const humanoid::PlacedCapsule& each : hard)
                 radius = std::min(radius,
                                   humanoid::gap({glm::mix(at.from, at.to, *from), at.to, 0.0}, each) - room);
         all.push_back({std::move(name), rope::Capsule{glm::vec3(kept_in(at.from)), glm::vec3(kept_in(at.to)),
@@ -87,7 +69,6 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& wo
     };
     for (std::size_t i = 0; i < placed.size(); ++i)
         add(humanoid::name(wearer.capsules[i].bone), placed[i], joined_part(wearer.capsules[i].bone));
-    if (seat) add("seat", hard.back(), {});
     // A rising slope is the union of two half spaces. A falling one is their intersection, which separate
     // colliders cannot express.
     const GroundSetting& ground = wearer.ground;

@@ -125,20 +125,6 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
     }
 }
 
-/// Skin of the hips that reached out of the colliders by more than half a cape would show through it.
-TEST_F(HumanoidAttach, CollidersCoverTheSeat) {
-    dress();
-    tick();
-    for (const auto& [at, node] : skin_points(part().loaded->character.skin, shown_pose(workspace).placed)) {
-        if (node != part().node_of(humanoid::Bone::Hips)) continue;
-        double out = 1.0;
-        for (const rope::Collider& each : world().state().colliders)
-            if (const auto* of = std::get_if<rope::Capsule>(&each.shape))
-                out = std::min(out, humanoid::gap({of->a, of->b, of->radius}, {at, at, 0.0}));
-        EXPECT_LT(out, body("cape").radius) << at.x << ", " << at.y << ", " << at.z;
-    }
-}
-
 /// Hands that grip a rifle bring the arms close to the trunk, and the rifle close to the cape.
 TEST_F(HumanoidAttach, IsNotTornByArmsThatCloseOnTheTrunk) {
     for (const auto& [file, size, before] :
