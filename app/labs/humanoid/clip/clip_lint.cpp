@@ -278,7 +278,8 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
         go_to_finding(panel, finding);
     const std::string why =
         finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
-    explain((finding.text + why).c_str());
+    const std::string place = elided(where, width - mend - 0.4f * em);
+    explain(((place == where ? "" : where + ": ") + finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
@@ -287,7 +288,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     ImGui::SetCursorPos({at.x + width - amount_width, at.y});
     ImGui::TextUnformatted(value.c_str());
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
-    ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
+    ImGui::TextDisabled("%s", place.c_str());
     if (!finding.has_cure) {
         ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize("no fix").x, at.y + 1.1f * line});
         ImGui::TextDisabled("no fix");
