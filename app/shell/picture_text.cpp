@@ -95,7 +95,7 @@ void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& p
     }
 }
 
-/// The least covered corner beside the legend's, if possible the opposite one.
+/// The emptiest corner beside the legend's, if possible the opposite one.
 glm::vec2 PictureText::plot_corner() const {
     const auto legend = static_cast<std::size_t>(std::ranges::find(corners, *corner_) - corners.begin());
     std::size_t best = corners.size() - 1 - legend;
