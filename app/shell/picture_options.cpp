@@ -18,8 +18,9 @@ void PictureOptions::start(const Workspace& workspace, bool labels, bool video, 
     const std::uint64_t now = past.empty() ? 0 : std::max(past.newest(), workspace.moment);
     const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::max_ticks);
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
-    from_ = round > 0 ? static_cast<float>(round * tick_seconds) : remembered_;
-    to_ = round > 0 ? static_cast<float>(2 * tick_seconds) : 0.0f;  // the next frame is the first again
+    round_ = round;
+    from_ = remembered_;
+    to_ = 0.0f;
     view_ = workspace.ui.picture_size;
     for (std::size_t i = 0; i < why_not_.size(); ++i) why_not_[i] = why_no_video(video_kinds[i]);
     if (!why_not_[static_cast<std::size_t>(format_)].empty()) format_ = 0;
@@ -31,7 +32,22 @@ void PictureOptions::frame() {
     look_rows();
 }
 
+int PictureOptions::every() const {
+    const double speed = turns() ? 1.0 : static_cast<double>(speed_);
+    return smooth_ == 1 && speed <= kind().max_rate * tick_seconds + 1e-6 ? 1 : 2;
+}
+
+/// The frame after the last would be the first again.
+void PictureOptions::take_round() {
+    const int remembered = static_cast<int>(std::lround(static_cast<double>(remembered_) / tick_seconds));
+    int from = (round_ + every() - 1) / every() * every();
+    if (from > remembered) from -= every();
+    from_ = static_cast<float>(from * tick_seconds);
+    to_ = from > every() ? static_cast<float>(every() * tick_seconds) : 0.0f;
+}
+
 void PictureOptions::video_rows() {
+    if (round_ > 0) take_round();
     static constexpr const char* contents[] = {"the last seconds", "a full turn of the camera"};
     static constexpr const char* rates[] = {"30 a second", "60 a second"};
     std::array<const char*, video_kinds.size()> titles{}, why{};
@@ -50,9 +66,9 @@ void PictureOptions::video_rows() {
         integer_field("turn, frames", turn_frames_, 2, 3600);
         explain("How many frames the turn has.");
     } else {
-        number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");
-        explain("Where the video begins, before the latest moment; at first, a motor's last whole turn.");
-        number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s");
+        if (number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s")) round_ = 0;
+        explain("Where the video begins: this long before the latest moment.");
+        if (number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s")) round_ = 0;
         explain("Where the video ends: this long before the latest moment.");
         number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest),
                      "%.2f");
@@ -115,9 +131,7 @@ ArgumentList PictureOptions::arguments(const std::filesystem::path& path) const 
     if (paper()) list.push_back({"paper", true});
     if (handles_) list.push_back({"handles", true});
     if (!video_) return list;
-    const double speed = turns() ? 1.0 : static_cast<double>(speed_);
-    const bool every_tick = smooth_ == 1 && speed <= kind().max_rate * tick_seconds + 1e-6;
-    list.push_back({"every", every_tick ? 1 : 2});
+    list.push_back({"every", every()});
     if (turns()) {
         list.push_back({"frames", turn_frames_});
         return list;

@@ -40,12 +40,16 @@ class PictureOptions {
         return background_ == Transparent && !kind().transparent ? OnScreen : background_;
     }
     bool paper() const { return background() == White || (background() == Transparent && paper_); }
+    /// Ticks from frame to frame.
+    int every() const;
+    void take_round();
     void video_rows();
     void size_rows();
     void look_rows();
 
     bool video_ = false;
     int format_ = 0, shows_ = 0, smooth_ = 0, background_ = OnScreen, turn_frames_ = 120;
+    int round_ = 0;            ///< ticks that loop; 0: none, or the seconds were edited
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
     glm::ivec2 view_{0}, size_{0};  ///< pixels; 0 in size_: the view's

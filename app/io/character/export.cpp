@@ -159,13 +159,18 @@ std::string read_back_text(const ExportReport& report) {
     return "; read back within " + fixed_text(1e3 * report.worst, 4) + " mm, worst at " + report.worst_joint;
 }
 
+std::string unit_text(const ExportReport& report) {
+    if (report.unit == 1.0) return "";
+    return "; the file keeps its unit: other programs read 1 m as " + si_text(1.0 / report.unit, "m");
+}
+
 }  // namespace
 
 std::string ExportReport::text() const {
     char rate_text[40];
     std::snprintf(rate_text, sizeof rate_text, " at %.5g fps", rate);
-    const std::string text = count_text(frames, "frame") + rate_text + read_back_text(*this) +
-                             (unit == 1.0 ? "" : "; its unit stays: 1 m here is " + si_text(1.0 / unit, "m"));
+    const std::string text =
+        count_text(frames, "frame") + rate_text + read_back_text(*this) + unit_text(*this);
     const std::string found = "; " + findings_text(*this);
     if (!has_feet) return text + "; no foot is ever planted" + found;
     return text + "; feet skate " + fixed_text(1e3 * skating_after, 1) + " mm, before fixes and IK " +
@@ -203,7 +208,8 @@ std::string sum_text(const std::vector<ExportReport>& reports) {
         if (worst == nullptr || each.worst > worst->worst) worst = &each;
         fresh += each.new_findings.size();
     }
-    return count_text(reports.size(), "clip") + (worst != nullptr ? read_back_text(*worst) : "") + "; " +
+    return count_text(reports.size(), "clip") +
+           (worst != nullptr ? read_back_text(*worst) + unit_text(*worst) : "") + "; " +
            (fresh == 0 ? "no new findings" : count_text(fresh, "new finding")) + " in them";
 }
 

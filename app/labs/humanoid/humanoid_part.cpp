@@ -88,6 +88,7 @@ std::size_t bytes_of(const LoadedCharacter& loaded) {
     for (const auto& [name, clip] : loaded.unfixed) add(*clip);
     for (const ClipEdit& edit : loaded.edits) {
         if (edit.clip) add(*edit.clip);
+        if (edit.unfixed) add(*edit.unfixed);
         if (const auto* motion = std::get_if<LoadedMotion>(&edit.what); motion != nullptr && motion->source)
             bytes += share_of(motion->source, bytes_of(*motion->source));
     }

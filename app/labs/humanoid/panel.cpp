@@ -460,7 +460,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     if (worst < 0.0 && all) return {"Complete body", Verdict::Kind::Good, bones + '.'};
     if (worst < 0.0)
         return {"Usable body", Verdict::Kind::Good,
-                bones + "; optional ones missing: " + name_list_text(part.unmapped()) + '.'};
+                bones + "; optional ones missing: " + comma_list(part.unmapped()) + '.'};
     if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones + '.'};
     const std::string off = worst < 0.1 ? fixed_text(1000.0 * worst, 1) + " mm" : fixed_text(worst, 2) + " m";
     return {off + " short", Verdict::Kind::Bad, bones + '.'};

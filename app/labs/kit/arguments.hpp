@@ -57,7 +57,7 @@ std::vector<std::string> name_list(const Arguments& given, const char* name);
 /// The inverse of gives_one() and name_list(): one name, or the list.
 NamedArgument one_or_list(const char* one, const char* list, const std::vector<std::string>& names);
 
-/// "Head, LeftHand"; names after the eighth are replaced by "...".
+/// "Head, LeftHand"; names after the eighth are counted: "and 3 more".
 std::string name_list_text(const std::vector<std::string>& names);
 
 // Changing a lab's part from a command.

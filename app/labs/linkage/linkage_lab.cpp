@@ -109,14 +109,17 @@ void LinkageLab::step(Workspace& workspace) const {
 /// A whole turn of the only motor, to the nearest tick.
 int LinkageLab::last_round(const Workspace& workspace) const {
     const auto& drives = linkage_part(workspace).drives;
-    if (drives.size() != 1 || drives[0].rate == 0.0 || workspace.rewind.empty()) return 0;
+    const Rewind& past = workspace.rewind;
+    if (drives.size() != 1 || drives[0].rate == 0.0 || past.empty()) return 0;
+    if (!turns(linkage_part(workspace), drives[0].joint)) return 0;
     const double tick = std::abs(drives[0].rate) * tick_seconds * static_cast<double>(workspace.clock.speed);
     const double ticks = std::round(glm::two_pi<double>() / tick);
-    if (ticks > static_cast<double>(Rewind::max_ticks)) return 0;
-    const auto& then = workspace.rewind.at(static_cast<std::uint64_t>(ticks)).part;
+    if (ticks < 1.0 || ticks > static_cast<double>(Rewind::max_ticks)) return 0;
+    const std::uint64_t present = workspace.moment > past.newest() ? 1 : 0;  // not yet remembered
+    const auto& then = past.at(static_cast<std::uint64_t>(ticks) - present).part;
     const LinkageDrive* const before = part_as<LinkagePart>(*then).find_drive(drives[0].joint);
     const double turned = before != nullptr ? std::abs(drives[0].value - before->value) : 0.0;
-    return std::abs(turned - glm::two_pi<double>()) < tick ? static_cast<int>(ticks) : 0;
+    return std::abs(turned - glm::two_pi<double>()) <= 0.51 * tick ? static_cast<int>(ticks) : 0;
 }
 
 std::vector<Handle> LinkageLab::handles(const Workspace& workspace) const {

@@ -102,9 +102,12 @@ double angle_at(const LinkagePart& part, std::string_view point, std::string* na
     if (other == here.end() && sketch.points[*at].hold != ik::SketchHold::Pinned && here.size() > 1)
         other = here.begin() + 1;
     const bool alone = other == here.end();
-    if (name != nullptr)
-        *name = sketch.points[end(here[0])].name + sketch.points[*at].name +
-                (alone ? " to X" : sketch.points[end(*other)].name);
+    if (name != nullptr) {
+        const std::string one = sketch.points[end(here[0])].name, middle = sketch.points[*at].name,
+                          two = alone ? "" : sketch.points[end(*other)].name;
+        const char* const dash = std::max({one.size(), middle.size(), two.size()}) > 1 ? "-" : "";
+        *name = alone ? middle + dash + one + " to X" : one + dash + middle + dash + two;
+    }
     return between(way(part, *at, end(here[0])), alone ? glm::dvec2(1.0, 0.0) : way(part, *at, end(*other)));
 }
 

@@ -31,8 +31,8 @@ ShownValue shown_value(const LinkagePart& part, std::string_view joint, double v
 std::string value_text(const LinkagePart& part, std::string_view joint, double value);
 
 /// Degrees, 0 to 180, between two bars at a point of the sketch, of different rigid bodies if two meet there.
-/// A single bar, or one body on a pin, is measured from +X. NaN if there is no angle. `name`: "ABC", "AB to
-/// X".
+/// A single bar, or one body on a pin, is measured from +X. NaN if there is no angle. `name`: "ABC", or "AB
+/// to X" at A; "hip-knee-foot".
 double angle_at(const LinkagePart& part, std::string_view point, std::string* name = nullptr);
 
 /// Below this angle a coupler pushes poorly: the usual limit in textbooks on mechanisms.

@@ -275,7 +275,7 @@ std::vector<Reading> readings(const signal::Measures& measures) {
         {"lag",
          unstable  ? "unstable"
          : follows ? shown(measures.lag, 1e3, 1, "ms")
-                   : "does not follow",
+                   : "none",
          unstable ? "The output is over ten times the range of the input, and still growing: lag, overshoot, "
                     "settling and jitter mean nothing."
          : follows ? "How long the output trails the input: the shift in time that makes them match best."
@@ -286,9 +286,19 @@ std::vector<Reading> readings(const signal::Measures& measures) {
          "From a jump until it stays within 2 % of it. Needs jumps: a square wave."},
         {"jitter left", shown(measures.jitter, 1e2, 1, "%"),
          "How much remains of the jitter of the input: second differences, output over input."},
-        {"rate difference", differs > 1e6 ? "> 1e6" : fixed_text(differs, differs < 10.0 ? 3 : 0),
+        {"rate difference", differs > 1e6 ? "huge" : fixed_text(differs, differs < 10.0 ? 3 : 0),
          "The maximum difference, at any one time, between outputs at 15, 30, 60, 144 Hz and uneven "
          "frames."}};
+}
+
+float reading_column() {
+    return 4.1f * ImGui::GetFontSize();  // holds "1184.2 %"
+}
+
+/// How many filters' numbers fit beside their names.
+std::size_t filters_a_row() {
+    const float two = ImGui::CalcTextSize("rate difference").x + 2.0f * reading_column();
+    return two <= ImGui::GetContentRegionAvail().x ? 2 : 1;
 }
 
 /// Two filters side by side, in their colours, or one.
@@ -296,19 +306,24 @@ void measure_rows(const SignalPart& part, const ChainAnalysis& analysis, const P
                   const std::vector<std::size_t>& stages) {
     const std::vector<Reading> left = readings(analysis.stages[stages.front()]),
                                right = readings(analysis.stages[stages.back()]);
+    const bool two = stages.size() > 1;
     const auto colour = [&](std::size_t stage) {
-        const glm::vec3 c = stages.size() > 1 ? stage_colour(colours, part.stages[stage]) : colours.text;
+        const glm::vec3 c = two ? stage_colour(colours, part.stages[stage]) : colours.text;
         return ImVec4(c.x, c.y, c.z, 1.0f);
     };
-    const float column = 4.1f * ImGui::GetFontSize();  // holds "1184.2 %"
+    const float column = reading_column(), room = column - 0.3f * ImGui::GetFontSize();
     for (std::size_t i = 0; i < right.size(); ++i) {
         const float end = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - column;
         ImGui::PushStyleColor(ImGuiCol_Text, colour(stages.back()));
-        reading(right[i].name, "%s", right[i].text.c_str());
+        reading(right[i].name, "%s", (two ? elided(right[i].text, room) : right[i].text).c_str());
         ImGui::PopStyleColor();
-        explain(right[i].help);
-        if (stages.size() < 2) continue;
-        const std::string text = elided(left[i].text, column);
+        const std::string help = right[i].help, other = left[i].help;
+        explain((help == other ? help
+                               : stage_title(part, stages.front()) + ": " + other + '\n' +
+                                     stage_title(part, stages.back()) + ": " + help)
+                    .c_str());
+        if (!two) continue;
+        const std::string text = elided(left[i].text, room);
         ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
         ImGui::TextColored(colour(stages.front()), "%s", text.c_str());
     }
@@ -399,7 +414,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
         } else {
             ImGui::TextDisabled("%s (off)", stage_title(part, i).c_str());
         }
-        if (shown.size() < 2 && i + 1 < part.stages.size()) continue;
+        if (shown.size() < filters_a_row() && i + 1 < part.stages.size()) continue;
         if (!shown.empty()) measure_rows(part, analysis, colours, shown);
         shown.clear();
     }

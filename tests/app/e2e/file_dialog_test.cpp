@@ -61,15 +61,35 @@ TEST_F(FileDialogTest, AVideoOfARunningMotorIsOneTurnWithoutAFrameTwice) {
     run("scene.save", {{"path", (folder_ / "leg.json").string()}});
     run("lab.open", {{"name", "linkage"}});
     run("linkage.preset", {{"name", "four_bar"}});
-    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 360}});
-    wait(90);
-    key("ctrl+shift+p");
-    EXPECT_TRUE(says(text(), "1.00 s to 0.03 s"));
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 33}});
+    run("time.pause");
+    for (const auto& [rate, round] :
+         {std::pair(-90, "4.00 s to 0.03 s"), {77, "4.70 s to"}, {360, "1.00 s to"}}) {
+        run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", rate}});
+        workspace().clock.steps_due = 300;
+        wait(2);
+        key("ctrl+shift+p");
+        EXPECT_TRUE(says(text(), round)) << rate;
+        if (rate != 360) key("escape");
+    }
+    click({700.0f, at("frames").y});
+    click(at("60 a second"));
+    EXPECT_TRUE(says(text(), "1.00 s to 0.02 s"));
     click(at("Record"));
-    wait(40);
+    wait(80);
+    run("view.picture", {{"path", (folder_ / "now.png").string()}});
+    wait(4);
     const Apng turn = read_apng(read(folder_ / "leg-1.png"));
-    ASSERT_EQ(turn.frames.size(), 30u);
-    EXPECT_NE(turn.frames.front().image.rgba, turn.frames.back().image.rgba);
+    ASSERT_EQ(turn.frames.size(), 60u);
+    const Image now = read_png(folder_ / "now.png");
+    const auto differing = [&](const Image& frame) {
+        int count = 0;
+        for (std::size_t i = 0; i < now.rgba.size(); ++i) count += frame.rgba.at(i) != now.rgba[i] ? 1 : 0;
+        return count;
+    };
+    const int first = differing(turn.frames[0].image);  // the frame after the last
+    EXPECT_LT(10 * first, differing(turn.frames[1].image));
+    EXPECT_LT(10 * first, differing(turn.frames.back().image));
 }
 
 TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {

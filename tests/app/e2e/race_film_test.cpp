@@ -43,6 +43,11 @@ TEST(RacePicture, HasItsLegendAndPlotUnlessSwitchedOff) {
     script.command("view.picture", sized(folder / "default.png"));
     script.command("view.picture", sized(folder / "with.png", {{"labels", true}}));
     script.command("view.picture", sized(folder / "without.png", {{"labels", false}}));
+    for (const bool on : {true, false}) {
+        Json small = sized(folder / (on ? "small.png" : "bare.png"), {{"labels", on}});
+        small.update({{"width", 400}, {"height", 300}});
+        script.command("view.picture", small);
+    }
     script.command("race.close").command("view.picture", sized(folder / "closed.png"));
     script.command("view.picture", sized(folder / "closed_without.png", {{"labels", false}}));
     play(script);
@@ -55,6 +60,8 @@ TEST(RacePicture, HasItsLegendAndPlotUnlessSwitchedOff) {
     EXPECT_GT(legend, 1000) << "in its corner";
     EXPECT_GT(plot, 1000) << "in the opposite one";
     EXPECT_LT(legend + plot, count_in(pixels, 800, {0, 0}, {800, 600})) << "and the names at the tips";
+    const std::vector<bool> small = differing(picture("small.png"), picture("bare.png"));
+    EXPECT_LT(count_in(small, 400, {200, 0}, {400, 150}), 10000) << "a plot would hide the scene";
 }
 
 TEST(RacePicture, HasItsLegendWhereItCoversNoChain) {

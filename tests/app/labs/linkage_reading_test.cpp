@@ -457,6 +457,8 @@ TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
     std::string name;
     EXPECT_NEAR(angle_at(part(), "A", &name), 90.0, 1e-6) << "the elbow keeps its angle";
     EXPECT_EQ(name, "BAC");
+    angle_at(part(), "B", &name);
+    EXPECT_EQ(name, "BA to X") << "from B to A";
     EXPECT_EQ(part().load(part().save(), "labs.linkage")->save(), part().save());
     expect_refused("linkage.motor.add", {{"point", "A"}}, {"has a motor"});
     run("linkage.motor.remove", {{"joint", "elbow"}});

@@ -4,6 +4,7 @@
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -237,6 +238,7 @@ TEST_F(SignalCommands, ADivergingFilterIsReportedAsUnstable) {
     filter = state().at("filters")[1];
     EXPECT_EQ(filter.at("following"), "follows");
     EXPECT_TRUE(filter.at("lag_ms").is_number());
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "rate difference 0.000 huge"));
 }
 
 TEST_F(SignalCommands, EveryPresetMakesItsPoint) {

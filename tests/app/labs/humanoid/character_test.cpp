@@ -195,6 +195,10 @@ TEST_F(HumanoidCharacter, AnImplausibleHeightIsReportedWithTheUnitThatFixesIt) {
     run("humanoid.scale", {{"metres", doubt->unit.metres}});
     EXPECT_EQ(last_note(), "");
     EXPECT_NEAR(node("HeadTop_End").y, 1.8, 1e-5);
+    for (const bool all : {false, true}) {
+        run("humanoid.export", {{"path", (folder_ / (all ? "all.glb" : "one.glb")).string()}, {"all", all}});
+        EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "keeps its unit read 1 m as 100 m"));
+    }
     run("humanoid.load");
     EXPECT_EQ(last_note(), "");
 }

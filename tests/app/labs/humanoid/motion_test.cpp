@@ -238,6 +238,12 @@ TEST_F(HumanoidMotions, FixesGoAlongToAnotherCharacter) {
     EXPECT_EQ(workspace.ui.toasts.back().text.find("Discarded"), std::string::npos);
     EXPECT_FALSE(*part().clip() == unfixed);
     EXPECT_TRUE(part().loaded->clip_unfixed(*part().playback.clip) == unfixed) << "for ghost and export";
+    LoadedCharacter bare = *part().loaded;
+    for (ClipEdit& each : bare.edits) each.unfixed.reset();
+    HumanoidPart with = part(), without = part();
+    with.loaded = std::make_shared<const LoadedCharacter>(*part().loaded);
+    without.loaded = std::make_shared<const LoadedCharacter>(bare);
+    EXPECT_LT(without.bytes(), with.bytes()) << "the unfixed motion is counted";
     const HumanoidPart other(load_character(figure));
     EXPECT_TRUE(*part().clip() == with_motion(other, fixed, "motion").loaded->clips().back());
     EXPECT_TRUE(humanoid_part(reopened()).loaded->clips() == part().loaded->clips());

@@ -48,6 +48,9 @@ TEST_F(HumanoidSelection, AddsAndRemoves) {
     EXPECT_EQ(state().at("selection").size(), 3u);
     run("humanoid.select", {{"add", true}});
     EXPECT_EQ(selected().size(), 3u);
+    select({"Hips", "Spine", "Head", "LeftHand", "RightHand", "LeftFoot", "RightFoot", "LeftLowerArm",
+            "RightLowerArm", "LeftLowerLeg"});
+    expect_says(inspector(), {" and 2 more"});
     select({"Spine"});
     EXPECT_EQ(selected(), Names{"Spine"});
     run("humanoid.select");
