@@ -135,10 +135,6 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     return report;
 }
 
-}  // namespace
-
-namespace {
-
 /// "7 findings in the written clip, 2 of them new: ...". A clip whose feet were put on a ground is judged on
 /// it; a reader of the file does not know the ground.
 std::string findings_text(const ExportReport& report) {
@@ -155,16 +151,16 @@ std::string findings_text(const ExportReport& report) {
     return fresh > named ? text + " and " + std::to_string(fresh - named) + " more" : text;
 }
 
-std::string read_back_text(const ExportReport& report) {
-    return "; read back within " + fixed_text(1e3 * report.worst, 4) + " mm, worst at " + report.worst_joint;
-}
-
 std::string unit_text(const ExportReport& report) {
     if (report.unit == 1.0) return "";
     return "; the file keeps its unit: other programs read 1 m as " + si_text(1.0 / report.unit, "m");
 }
 
 }  // namespace
+
+std::string read_back_text(const ExportReport& report) {
+    return "; read back within " + fixed_text(1e3 * report.worst, 4) + " mm, worst at " + report.worst_joint;
+}
 
 std::string ExportReport::text() const {
     char rate_text[40];

@@ -31,6 +31,9 @@ struct ExportReport {
     std::string text() const;
 };
 
+/// "; read back within 0.0001 mm, worst at LeftHand"
+std::string read_back_text(const ExportReport& report);
+
 struct Export {
     const Character& character;
     std::string file{};                        ///< the character's source file; empty: none

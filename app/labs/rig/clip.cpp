@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
@@ -158,6 +159,30 @@ Character clip_character(const RigPart& part) {
     Character character{.skeleton = skeleton_of(std::move(nodes))};
     character.clips.push_back(std::move(clip));
     return character;
+}
+
+std::string sheared_text(const Character& character) {
+    const humanoid::Skeleton& skeleton = character.skeleton;
+    const humanoid::Clip& clip = character.clips.front();
+    std::vector<rig::Transform> pose(skeleton.size()), composed(skeleton.size());
+    std::vector<humanoid::Placement> placed(skeleton.size());
+    constexpr double enough = 1e-4;  // metres, above the rounding of stored poses
+    double most = enough;
+    std::string text;
+    for (const double time : clip.channels.front().translation.times) {
+        sample(clip, skeleton, time, pose);
+        place(skeleton, pose, placed);
+        for (std::size_t i = 0; i < skeleton.size(); ++i) {
+            const std::int32_t parent = skeleton[i].parent;  // before i
+            composed[i] =
+                parent < 0 ? pose[i] : rig::compose(composed[static_cast<std::size_t>(parent)], pose[i]);
+            const double off = glm::distance(composed[i].translation, placed[i].position);
+            if (!(off > most)) continue;
+            most = off;
+            text = "; bones scaled unequally: " + skeleton[i].name + " is " + length_text(off) + " off";
+        }
+    }
+    return text;
 }
 
 void check_clip_solve(const RigPart& part) {

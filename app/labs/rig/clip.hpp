@@ -17,6 +17,9 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
 /// The rig's bones and the clip, as the writers of files take them. Throws std::invalid_argument if there is
 /// no clip, or if its bones differ from the rig's.
 Character clip_character(const RigPart& part);
+/// "; bones scaled unequally: hand is 12.3 mm off". The rig multiplies scales axis by axis; files multiply
+/// matrices, which shears. Empty if no bone is far off.
+std::string sheared_text(const Character& character);
 
 /// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones differ
 /// from the rig's, or if a single frame would take too long.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <memory>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -177,13 +179,57 @@ void remove_elements(RigPart& part, const std::vector<std::size_t>& elements) {
 
 namespace {
 
-std::string name_of_copy(std::string name) {
-    constexpr const char* sides[][2] = {
-        {"left", "right"}, {"right", "left"}, {"Left", "Right"}, {"Right", "Left"}};
-    for (const auto& [from, to] : sides)
-        if (const std::size_t at = name.find(from); at != name.npos)
-            return name.replace(at, std::string_view(from).size(), to);
-    return name + " mirrored";
+/// Swaps the first word for a side, as in "left hand", "HandLeft", "LEFT_HAND", "hand.L" and "L_hand".
+std::string on_other_side(const std::string& name) {
+    static const std::regex side(
+        "(?:^|[^A-Za-z])(left|right)(?![a-z])|(Left|Right)(?![a-z])|(?:^|[^A-Z])(LEFT|RIGHT)(?![A-Za-z])|"
+        "[._](L|R)(?![A-Za-z0-9])|(?:^|[^A-Za-z0-9])(L|R)(?=_)");
+    static const std::map<std::string, const char*> others{
+        {"left", "right"}, {"Left", "Right"}, {"LEFT", "RIGHT"}, {"L", "R"},
+        {"right", "left"}, {"Right", "Left"}, {"RIGHT", "LEFT"}, {"R", "L"}};
+    std::smatch found;
+    if (!std::regex_search(name, found, side)) return name;
+    std::size_t word = 1;
+    while (!found[word].matched) ++word;
+    return std::string(name.begin(), found[word].first) + others.at(found.str(word)) +
+           std::string(found[word].second, name.end());
+}
+
+/// Which number of the control's value changes sign in a mirror.
+std::optional<int> number_along_x(const rig::Control& control) {
+    using Kind = rig::ControlKind;
+    if (control.kind == Kind::Vector2d)
+        for (int i = 0; i < 2; ++i)
+            if (control.axes[static_cast<std::size_t>(i)] == 0) return i;
+    if (control.kind == Kind::Transform || control.kind == Kind::Position) return 0;
+    return std::nullopt;
+}
+
+rig::Control mirrored(rig::Control control, const std::string& name) {
+    const auto x = number_along_x(control);
+    if (!x || (!control.minimum && !control.maximum)) return control;
+    if (!control.minimum || !control.maximum)
+        throw std::invalid_argument(quoted(name) + " has a limit on one side only, which cannot be mirrored");
+    std::swap((*control.minimum)[*x], (*control.maximum)[*x]);
+    (*control.minimum)[*x] *= -1.0;
+    (*control.maximum)[*x] *= -1.0;
+    return control;
+}
+
+glm::dquat mirrored(const glm::dquat& q) {
+    return {q.w, q.x, -q.y, -q.z};
+}
+
+rig::Transform mirrored(const rig::Transform& pose) {
+    return {pose.translation * glm::dvec3(-1.0, 1.0, 1.0), mirrored(pose.rotation), pose.scale};
+}
+
+rig::Value mirrored(const rig::Control& control, rig::Value value) {
+    if (auto* const pose = std::get_if<rig::Transform>(&value)) *pose = mirrored(*pose);
+    if (auto* const rotation = std::get_if<glm::dquat>(&value)) *rotation = mirrored(*rotation);
+    if (auto* const vector = std::get_if<glm::dvec3>(&value))
+        if (const auto x = number_along_x(control)) (*vector)[*x] *= -1.0;
+    return value;
 }
 
 }  // namespace
@@ -191,30 +237,34 @@ std::string name_of_copy(std::string name) {
 void mirror_branch(RigPart& part, const std::string& top) {
     element_named(part, top);  // refuses a missing one
     rig::Definition definition = part.rig.definition();
-    rig::Hierarchy poses = part.state->elements;
-    std::set<std::string> branch{top};
-    for (const std::size_t at : from_the_roots(part.rig, poses)) {
-        const rig::Element& each = part.rig.definition().elements[at];
-        if (each.name != top && !branch.contains(each.parent)) continue;
-        if (each.control && (each.control->minimum || each.control->maximum))
-            throw std::invalid_argument(quoted(each.name) + " has limits, which cannot be mirrored");
-        branch.insert(each.name);
-        rig::Element copy = each;
-        copy.name = name_of_copy(each.name);
-        if (each.name != top) copy.parent = name_of_copy(each.parent);
-        copy.initial = poses.get(part.rig.id(at), rig::Space::Local,
-                                 each.control ? rig::Pose::Current : rig::Pose::Input);
-        copy.initial.translation.x *= -1.0;
-        copy.initial.rotation.y *= -1.0;
-        copy.initial.rotation.z *= -1.0;
+    std::map<std::string, std::string> copies;
+    for (const std::size_t at : from_the_roots(part.rig, part.state->elements)) {
+        rig::Element copy = part.rig.definition().elements[at];
+        const std::string name = copy.name;
+        if (name != top && !copies.contains(copy.parent)) continue;
+        copy.name = on_other_side(name);
+        if (std::ranges::find(definition.elements, copy.name, &rig::Element::name) !=
+            definition.elements.end())
+            copy.name = name + " mirrored";
+        copies[name] = copy.name;
+        if (name != top) copy.parent = copies[copy.parent];
+        copy.initial = mirrored(copy.initial);
+        if (copy.control) copy.control = mirrored(*copy.control, name);
         definition.elements.push_back(std::move(copy));
     }
-    const std::string name = name_of_copy(top);
     for (rig::Unit& unit : definition.units)
         if (auto* const loop = std::get_if<rig::ForEach>(&unit.operation))
-            if (std::ranges::find(loop->roots, top) != loop->roots.end()) loop->roots.push_back(name);
+            if (std::ranges::find(loop->roots, top) != loop->roots.end()) loop->roots.push_back(copies[top]);
     redefine(part, std::move(definition));
-    part.selected.elements.only(*part.rig.element(name));
+    rig::State& state = part.state.edit();
+    for (const auto& [from, to] : copies) {
+        const std::size_t at = *part.rig.element(from), there = *part.rig.element(to);
+        const rig::Transform input = state.elements.get(part.rig.id(at), rig::Space::Local, rig::Pose::Input);
+        require_ok(part.rig.set_element(state, there, rig::Space::Local, mirrored(input)));
+        if (const auto& control = part.rig.definition().elements[at].control)
+            require_ok(part.rig.set_control(state, there, mirrored(*control, state.controls[at])));
+    }
+    part.selected.elements.only(*part.rig.element(copies[top]));
     part.selected.unit_last = false;
 }
 

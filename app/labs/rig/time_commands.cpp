@@ -299,7 +299,8 @@ void write_clip(Workspace& workspace, const Arguments& given) {
                                              .outputs = &workspace.writes()},
                                             path);
     workspace.toast(written_text(path) + ": " + count_text(report.frames, "frame") + " of " +
-                    count_text(clip.channels.size(), "bone"));
+                    count_text(clip.channels.size(), "bone") + read_back_text(report) +
+                    sheared_text(character));
 }
 
 /// Keeps the frames solved so far.

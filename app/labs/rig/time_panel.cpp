@@ -102,8 +102,10 @@ void clip_rows(const RigPart& part, Emit& emit) {
     const bool running = part.clip_left && part.clip_left->running;
     const bool something = part.take.last > 0 || !part.walks.empty();
     if (row_button("Record", 3, something,
-                   something ? "Keeps how the bones moved since the take began, at the flag below the scene"
-                             : "Play first"))
+                   part.take.last > 0
+                       ? "Keeps how the bones moved since the take began, at the flag below the scene"
+                   : something ? "Records the next ten seconds of the walk"
+                               : "Play first"))
         emit("rig.clip.record");
     if (running) {
         if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");

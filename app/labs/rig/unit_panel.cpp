@@ -107,7 +107,7 @@ void switch_box(const RigPanel& panel, const rig::Unit& unit) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
     if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
     ImGui::PopStyleVar();
-    if (ImGui::IsItemHovered()) tooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
+    if (ImGui::IsItemHovered()) tooltip(on ? "Runs; click to mute it" : "Muted; click to run it");
 }
 
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {

@@ -98,6 +98,15 @@ TEST_F(RigClips, IsExportedAsItWasRecorded) {
     for (std::size_t i = 0; i < bones; ++i)
         expect_near(pose[*read.skeleton.find(part().clip->bones[i])].translation,
                     part().clip->poses[15 * bones + i].translation, 1e-5);
+    tells("bones read back within mm, worst at");
+    EXPECT_FALSE(test::says(workspace.ui.toasts.back().text, "unequally"));
+    run("rig.clear");
+    element("arm", "", {{"scale", {1, 2, 1}}});
+    element("hand", "arm", {{"rotation", {0, 0, 0.6, 0.8}}});
+    element("tip", "hand", transform(1, 0, 0));
+    run("rig.clip.record", {{"seconds", 0.1}});
+    run("rig.clip.export", {{"path", (folder / "arm.glb").string()}});
+    tells("bones scaled unequally: tip is off");
 }
 
 TEST_F(RigClips, IsUndoneCancelledAndCleared) {
@@ -230,6 +239,7 @@ class RigBackward : public RigTest {
 
 TEST_F(RigBackward, AimFkAndLoopRestoreEveryPose) {
     for (const char* const preset : {"aim", "fk", "loop"}) {
+        SCOPED_TRACE(preset);
         run("rig.preset", {{"name", preset}});
         for (int i = 0; i < 150; ++i) {
             if (preset == std::string("aim")) {

@@ -1,4 +1,5 @@
 // The Rig lab's commands: their effects, when the lab solves, and --state.
+#include <array>
 #include <iterator>
 
 #include "app/shell/command_line.hpp"
@@ -120,6 +121,57 @@ TEST_F(RigCommands, AControlIsSetWithinItsLimits) {
     EXPECT_EQ(named("elements", "free").at("value").at("translation"), (Json{1.0, 2.0, 3.0}))
         << "left out: stays";
     EXPECT_NEAR(rotation("free").z, 0.6, 1e-15) << "of unit length";
+}
+
+TEST_F(RigCommands, AMirroredBranchIsAMirrorImageNowAndAtRest) {
+    const Json turned{{"translation", {0.2, 1, 0.1}}, {"rotation", {0, 0, 0.6, 0.8}}};
+    element("arm.L", "", transform(1, 0.5, 0));
+    control("left pull", "vector2d",
+            {{"space", "arm.L"}, {"local", turned}, {"minimum", {-1, -2}}, {"maximum", {3, 4}}});
+    control("DialLeft", "float", {{"space", "left pull"}, {"minimum", 0}, {"maximum", 1}});
+    control("L_grip", "transform", {{"space", "left pull"}, {"local", transform(0.3, 0, 0)}});
+    control("bright", "position", {{"space", "L_grip"}, {"minimum", {-1, 0, 0}}, {"maximum", {2, 1, 1}}});
+    element("LEFT", "bright", turned);
+    element("right", "bright");
+    element("left", "bright");
+    run("rig.element.set", {{"name", "arm.L"}, {"transform", turned}});
+    set("left pull", {0.5, 1});
+    set("DialLeft", 0.5);
+    set("L_grip", turned);
+    set("bright", {1.5, 1, 0});
+    run("rig.element.mirror", {{"name", "arm.L"}});
+    const std::vector<std::array<const char*, 2>> sides{
+        {"arm.L", "arm.R"},        {"left pull", "right pull"},   {"DialLeft", "DialRight"},
+        {"L_grip", "R_grip"},      {"bright", "bright mirrored"}, {"LEFT", "RIGHT"},
+        {"left", "left mirrored"}, {"right", "right mirrored"}};
+    const auto expect_mirrored = [&] {
+        solve();
+        for (const auto& [from, to] : sides) {
+            SCOPED_TRACE(from);
+            expect_near(translation(to), translation(from) * glm::dvec3(-1, 1, 1));
+            const glm::dquat q = rotation(from);
+            EXPECT_NEAR(std::abs(glm::dot(rotation(to), glm::dquat(q.w, q.x, -q.y, -q.z))), 1.0, 1e-12);
+        }
+    };
+    expect_mirrored();
+    EXPECT_EQ(named("elements", "right pull").at("value"), (Json{-0.5, 1.0}));
+    EXPECT_EQ(named("elements", "DialRight").at("value"), 0.5);
+    const auto control_of = [&](const char* name) {
+        return *part().rig.definition().elements[*part().rig.element(name)].control;
+    };
+    expect_near(*control_of("right pull").minimum, {-3, -2, 0});
+    expect_near(*control_of("bright mirrored").maximum, {1, 1, 1});
+    run("rig.control.reset",
+        {{"names", {"left pull", "L_grip", "bright", "right pull", "R_grip", "bright mirrored"}}});
+    expect_near(translation("L_grip", "local"), {0.3, 0, 0});
+    expect_mirrored();
+    run("rig.control.limits", {{"name", "bright"}, {"maximum", nullptr}});
+    expect_refused("rig.element.mirror", {{"name", "bright"}}, {"bright", "one side only"});
+    run("rig.preset", {{"name", "fk"}});
+    run("rig.element.mirror", {{"name", "dial"}});
+    run("rig.preset", {{"name", "secondary"}});
+    run("rig.element.mirror", {{"name", "head"}});
+    EXPECT_EQ(part().selected_element(), "head mirrored");
 }
 
 TEST_F(RigCommands, ATickSolvesAfterChangesAndThenRests) {
