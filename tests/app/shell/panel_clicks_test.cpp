@@ -178,9 +178,13 @@ class PanelClicks : public Panels {
         press(false);
         ticks(2);
     }
-    /// Three clicks at one position must hit the same button.
-    void expect_steady(const DrawnItem& button, glm::vec2 at, const std::string& name) {
+    /// Three clicks at one position must hit the same button. The mouse was away: a row that waited for it to
+    /// leave may have gone.
+    void expect_steady(const DrawnItem& clicked, glm::vec2 at, const std::string& name) {
         const Workspace& workspace = app_.workspace();
+        const DrawnItem* const now = frame().find(clicked.id);
+        const DrawnItem button = now != nullptr ? *now : clicked;
+        if (now != nullptr) at = place_on(button);
         for (int i = 0; i < 3 && workspace.lab == GetParam() && !workspace.ui.covered() && !list_is_open();
              ++i) {
             if (i > 0) click(at);
