@@ -178,24 +178,29 @@ class PanelClicks : public Panels {
         press(false);
         ticks(2);
     }
-    /// Three clicks at one position must hit the same button. The mouse was away: a row that waited for it to
-    /// leave may have gone.
-    void expect_steady(const DrawnItem& clicked, glm::vec2 at, const std::string& name) {
-        const Workspace& workspace = app_.workspace();
+    /// No other button may be under the mouse after a click; false if one is.
+    bool expect_steady(const DrawnItem& button, glm::vec2 at, const std::string& name, int clicks) {
+        if (app_.workspace().lab != GetParam() || app_.workspace().ui.covered() || list_is_open())
+            return false;
+        for (const DrawnItem& each : frame().items)
+            if (each.kind == Kind::Button && each.box.contains(at) && each.id != button.id &&
+                !same_place(each, button)) {
+                ADD_FAILURE() << name << ": after click " << clicks << " \"" << each.label
+                              << "\" is under the mouse, " << each.box.min.y - button.box.min.y << " lower";
+                return false;
+            }
+        return true;
+    }
+    /// Nor after two more. The mouse was away, so a row that waited for it to leave may have gone.
+    void click_twice_more(const DrawnItem& clicked, const std::string& name) {
         const DrawnItem* const now = frame().find(clicked.id);
-        const DrawnItem button = now != nullptr ? *now : clicked;
-        if (now != nullptr) at = place_on(button);
-        for (int i = 0; i < 3 && workspace.lab == GetParam() && !workspace.ui.covered() && !list_is_open();
-             ++i) {
-            if (i > 0) click(at);
-            for (const DrawnItem& each : frame().items)
-                if (each.kind == Kind::Button && each.box.contains(at) && each.id != button.id &&
-                    !same_place(each, button)) {
-                    ADD_FAILURE() << name << ": after click " << i + 1 << " \"" << each.label
-                                  << "\" is under the mouse, " << each.box.min.y - button.box.min.y
-                                  << " lower";
-                    return;
-                }
+        if (now == nullptr) return;
+        const DrawnItem button = *now;
+        const glm::vec2 at = place_on(button);
+        for (int clicks = 2; clicks < 4; ++clicks) {
+            if (app_.workspace().lab != GetParam() || app_.workspace().ui.covered() || list_is_open()) return;
+            click(at);
+            if (!expect_steady(button, at, name, clicks)) return;
         }
     }
     /// An area has tooltips only in places.
@@ -237,12 +242,13 @@ class PanelClicks : public Panels {
             return ImGui::GetIO().WantTextInput ? Outcome::Changed : Outcome::Nothing;
         opened_list_ = list_is_open();
         if (opened_list_) return Outcome::Changed;  // its rows are tried by themselves
+        if (item.kind == Kind::Button) expect_steady(item, at, name, 1);
         if (was_refused()) return Outcome::Refused;
         if (const DrawnItem* const now = frame().find(item.id); item.on && now != nullptr) {
             EXPECT_EQ(now->on, item.kind == Kind::Button || !*item.on) << name << " stays as it was";
         }
         bool changed = seen() != before;
-        if (item.kind == Kind::Button) try_replaced(options), expect_steady(item, at, name);
+        if (item.kind == Kind::Button) try_replaced(options), click_twice_more(item, name);
         if (item.kind == Kind::Button || item.kind == Kind::Check)
             return changed ? Outcome::Changed : is_chosen(item) ? Outcome::Chosen : Outcome::Nothing;
         for (const float share : {-0.497f, 0.497f}) {  // it was at its end, or is a strip or an edge
