@@ -485,8 +485,12 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
     ImGui::PopTextWrapPos();
     for (const Cure& cure : shown->buttons) {
-        if (!cure.text.empty()) note(cure.text);
-        cure_line("", cure, emit);
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float both = ImGui::CalcTextSize(cure.text.c_str()).x + style.ItemSpacing.x +
+                           ImGui::CalcTextSize(cure.title.c_str()).x + 2.0f * style.FramePadding.x;
+        const bool fits = both <= ImGui::GetContentRegionAvail().x;
+        if (!fits) note(cure.text);
+        cure_line(fits ? cure.text : "", cure, emit);
     }
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
     // Scroll to the incident if its mark on the strip was clicked.
