@@ -95,15 +95,6 @@ void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& p
     }
 }
 
-/// The emptiest corner beside the legend's, if possible the opposite one.
-glm::vec2 PictureText::plot_corner() const {
-    const auto legend = static_cast<std::size_t>(std::ranges::find(corners, *corner_) - corners.begin());
-    std::size_t best = corners.size() - 1 - legend;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        if (i != legend && covered_[i] < covered_[best]) best = i;
-    return corners[best];
-}
-
 void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
                        std::span<const LegendRow> legend, const Palette& palette,
                        const std::function<void()>& plot) {
@@ -123,7 +114,7 @@ void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std:
     const glm::vec2 box = scale_ * glm::vec2(300.0f, 210.0f);  // scale 1 is a picture of 800 x 600
     constexpr float most = 0.45f;                              // of each side; the scene takes precedence
     if (plot && panes.size() == 1 && box.x <= most * view.size().x && box.y <= most * view.size().y) {
-        const glm::vec2 at = plot_corner(), to = at * glm::vec2(size_);
+        const glm::vec2 at = 1.0f - *corner_, to = at * glm::vec2(size_);  // opposite the legend
         ImGui::SetNextWindowPos({to.x, to.y}, ImGuiCond_Always, {at.x, at.y});
         ImGui::SetNextWindowSize({box.x, box.y});
         ImGui::SetNextWindowBgAlpha(0.8f);

@@ -29,7 +29,7 @@ class PictureText {
     /// of all pictures of a video. Without this, draw() decides by its first picture.
     void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
     /// Draws over the scene, into the bound framebuffer. The panes were drawn with that camera and palette.
-    /// The plot is drawn in a corner beside the legend's, unless it would hide much or there are several
+    /// The plot is drawn in the corner opposite the legend, unless it would hide much or there are several
     /// panes.
     void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
               std::span<const LegendRow> legend, const Palette& palette, const std::function<void()>& plot);
@@ -37,7 +37,6 @@ class PictureText {
   private:
     void count_covered(std::span<const Pane> panes, const CameraPose& pose,
                        std::span<const LegendRow> legend);
-    glm::vec2 plot_corner() const;
 
     glm::ivec2 size_;
     float scale_;

@@ -228,12 +228,18 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     place_colliders(world, colliders);
 }
 
-/// Resets attachments that are caught in the body and badly stretched to their initial shape.
+/// Resets attachments that are caught in the body to their initial shape: those that are badly stretched, and
+/// those that stay stretched though they hardly move.
 void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& wearer) {
-    constexpr double largest_error = 0.5;
+    constexpr double largest_error = 0.5, largest_at_rest = 0.05;
     for (const Attachment& each : attachments.list) {
         const rope::Body body = *world.find(each.name);
-        if (world.length_error(body) < largest_error) continue;
+        const double error = world.length_error(body);
+        if (error < largest_at_rest) continue;
+        double fastest = 0.0;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            fastest = std::max(fastest, glm::length(world.world().velocity(i)));
+        if (error < largest_error && fastest > 10.0 * resting_speed) continue;
         const std::vector<dvec3> offsets = made_offsets(each, wearer);
         rope::State state = world.state();
         for (std::size_t i = 0; i < body.count && i < offsets.size(); ++i) {
