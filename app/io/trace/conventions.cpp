@@ -189,8 +189,10 @@ std::string Conventions::place(glm::vec3 p) const {
 std::string Conventions::length(double length) const {
     const double value = length / metres();
     const double digits = value > 0.0 ? std::floor(std::log10(value)) : 0.0;
-    return fixed_text(value, static_cast<int>(std::clamp(2.0 - digits, 0.0, 6.0))) + ' ' +
-           trace_units.name(unit.value);
+    std::string text = fixed_text(value, static_cast<int>(std::clamp(2.0 - digits, 0.0, 6.0)));
+    if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text + ' ' + trace_units.name(unit.value);
 }
 
 glm::quat Conventions::rotation(const glm::dvec4& r) const {

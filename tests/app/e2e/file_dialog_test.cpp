@@ -88,8 +88,8 @@ TEST_F(FileDialogTest, AVideoOfARunningMotorIsOneTurnWithoutAFrameTwice) {
         return count;
     };
     const int first = differing(turn.frames[0].image);  // the frame after the last
-    EXPECT_LT(10 * first, differing(turn.frames[1].image));
-    EXPECT_LT(10 * first, differing(turn.frames.back().image));
+    EXPECT_LT(4 * first, differing(turn.frames[1].image));
+    EXPECT_LT(4 * first, differing(turn.frames.back().image));
 }
 
 TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
