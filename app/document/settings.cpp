@@ -111,8 +111,7 @@ Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
     reader.read("hint_seen", settings.hint_seen);
     const Json own = save_settings(Settings{});
     for (const auto& [key, value] : json.items())
-        if (value.is_string() && !own.contains(key) && key != "pending_poses")  // an option of the past
-            settings.choices[key] = value.get<std::string>();
+        if (value.is_string() && !own.contains(key)) settings.choices[key] = value.get<std::string>();
     return settings;
 }
 

@@ -157,8 +157,8 @@ class Lab {
     /// Whether a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
-    /// How many of the last ticks the motion needed for a round that ends as it began; 0: none does.
-    virtual int last_round(const Workspace&) const { return 0; }
+    /// How many of the last ticks make one cycle that ends as it began; 0: none.
+    virtual int loop_ticks(const Workspace&) const { return 0; }
     /// Height of the timeline below the scene, in pixels at scale 1; 0: none.
     static constexpr float strip_height = 46.0f;
     virtual float timeline_height(const Workspace&) const;

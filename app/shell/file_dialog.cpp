@@ -95,7 +95,7 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     open_folder(!saving() && fs::is_directory(opened_, error) ? opened_ : home);
     const Lab& lab = *labs.find(workspace.lab);
     if (picturing())
-        picture_.start(workspace, lab.labels_pictures(workspace), filming(), lab.last_round(workspace));
+        picture_.start(workspace, lab.labels_pictures(workspace), filming(), lab.loop_ticks(workspace));
     const std::string name = picturing() ? picture_name(workspace, folder_)
                              : saving()  ? workspace.path.filename().string()
                                          : std::string();

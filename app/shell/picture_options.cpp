@@ -11,14 +11,14 @@
 
 namespace tendril::app {
 
-void PictureOptions::start(const Workspace& workspace, bool labels, bool video, int round) {
+void PictureOptions::start(const Workspace& workspace, bool labels, bool video, int loop) {
     video_ = video;
     labels_ = labels;
     const Rewind& past = workspace.rewind;
     const std::uint64_t now = past.empty() ? 0 : std::max(past.newest(), workspace.moment);
     const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::max_ticks);
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
-    round_ = round;
+    loop_ = loop;
     from_ = remembered_;
     to_ = 0.0f;
     view_ = workspace.ui.picture_size;
@@ -38,16 +38,16 @@ int PictureOptions::every() const {
 }
 
 /// The frame after the last would be the first again.
-void PictureOptions::take_round() {
+void PictureOptions::take_loop() {
     const int remembered = static_cast<int>(std::lround(static_cast<double>(remembered_) / tick_seconds));
-    int from = (round_ + every() - 1) / every() * every();
+    int from = (loop_ + every() - 1) / every() * every();
     if (from > remembered) from -= every();
     from_ = static_cast<float>(from * tick_seconds);
     to_ = from > every() ? static_cast<float>(every() * tick_seconds) : 0.0f;
 }
 
 void PictureOptions::video_rows() {
-    if (round_ > 0) take_round();
+    if (loop_ > 0) take_loop();
     static constexpr const char* contents[] = {"the last seconds", "a full turn of the camera"};
     static constexpr const char* rates[] = {"30 a second", "60 a second"};
     std::array<const char*, video_kinds.size()> titles{}, why{};
@@ -66,9 +66,9 @@ void PictureOptions::video_rows() {
         integer_field("turn, frames", turn_frames_, 2, 3600);
         explain("How many frames the turn has.");
     } else {
-        if (number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s")) round_ = 0;
+        if (number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s")) loop_ = 0;
         explain("Where the video begins: this long before the latest moment.");
-        if (number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s")) round_ = 0;
+        if (number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s")) loop_ = 0;
         explain("Where the video ends: this long before the latest moment.");
         number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest),
                      "%.2f");

@@ -19,8 +19,8 @@ class PictureOptions {
     float rows() const { return video_ ? 13.0f : 7.0f; }
 
     /// Call when the dialog opens. Keeps earlier choices, except for seconds and labels. `labels`: whether
-    /// the lab wants labels. `round`: the last ticks that loop, shown at first; 0: all that is remembered.
-    void start(const Workspace& workspace, bool labels, bool video, int round);
+    /// the lab wants labels. `loop`: the last ticks that loop, shown at first; 0: all that is remembered.
+    void start(const Workspace& workspace, bool labels, bool video, int loop);
     void frame();
     /// The chosen format's ending.
     const char* ending() const { return kind().ending; }
@@ -42,14 +42,14 @@ class PictureOptions {
     bool paper() const { return background() == White || (background() == Transparent && paper_); }
     /// Ticks from frame to frame.
     int every() const;
-    void take_round();
+    void take_loop();
     void video_rows();
     void size_rows();
     void look_rows();
 
     bool video_ = false;
     int format_ = 0, shows_ = 0, smooth_ = 0, background_ = OnScreen, turn_frames_ = 120;
-    int round_ = 0;            ///< ticks that loop; 0: none, or the seconds were edited
+    int loop_ = 0;             ///< ticks that loop; 0: none, or the seconds were edited
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
     glm::ivec2 view_{0}, size_{0};  ///< pixels; 0 in size_: the view's

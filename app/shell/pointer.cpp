@@ -146,7 +146,8 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     boxing_ = caught_ == no_pick && input.ctrl() && scene.lab.selects_by_box();
     const auto part = picked_part(caught_);
     stroking_ = !part && !input.ctrl() && scene.lab.takes_strokes(scene.workspace);
-    const auto handle = part ? scene.lab.shown_gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+    const auto handle =
+        part ? scene.lab.shown_gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     if (handle) begin_drag(*handle, part ? part : handle->part, scene);
 }
 
@@ -254,8 +255,8 @@ void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     constrained_ = constraint(input);
     const bool bound = !constrained_.empty();
-    const auto handle =
-        picked_part(caught_) ? scene.lab.shown_gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+    const auto handle = picked_part(caught_) ? scene.lab.shown_gizmo(scene.workspace)
+                                             : scene.lab.handle(scene.workspace, caught_);
     // The handle's parent may have moved since the start: only the dragged property follows the pointer.
     HandleFrame frame = handle && together_.empty() ? handle->frame : caught_frame_;
     if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {

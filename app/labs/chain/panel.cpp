@@ -135,7 +135,7 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
 
 void segment_rows(const ChainPart& part, Emit& emit) {
     const float length = length_of_next(part.chain);
-    /// In mode reach the new chain reaches again, in the same step.
+    // In mode reach the new chain reaches again, in the same step.
     const auto change = [&](const char* command, const ArgumentList& arguments) {
         emit.continuously(command, arguments);
         if (part.mode == ChainMode::Reach && part.motion.path == Motion::Path::Still)

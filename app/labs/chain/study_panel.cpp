@@ -188,7 +188,9 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
                              "race.record also writes GIF and MP4, at "
                              "any size and pace.";
     if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
-    if (row_button("Save a picture", 2, true, "Saves or copies the scene, as Ctrl+P does; with the plot by iteration unless side by side"))
+    if (row_button(
+            "Save a picture", 2, true,
+            "Saves or copies the scene, as Ctrl+P does; with the plot by iteration unless side by side"))
         emit("view.picture_dialog");
     end_row();
 }

@@ -266,8 +266,9 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .more = true},
         {.name = "wind",
          .label = "wind",
-         .help = "The velocity of the air along x, y and z. It pushes cloth, ropes and hair, and makes a flag "
-                 "flutter. At 0 there is no air, unless still air resists.",
+         .help =
+             "The velocity of the air along x, y and z. It pushes cloth, ropes and hair, and makes a flag "
+             "flutter. At 0 there is no air, unless still air resists.",
          .step = 0.05f,
          .decimals = 1,
          .in_line = true},

@@ -90,14 +90,19 @@ void picture_rows(Emit& emit) {
     end_row();
 }
 
-void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit) {
+void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit, bool whole) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float room = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorPosX();
     const float width =
         cure ? ImGui::CalcTextSize(cure->title.c_str()).x + 2.0f * style.FramePadding.x : 0.0f;
-    if (!text.empty()) text_elided(text, room - width - (cure ? style.ItemSpacing.x : 0.0f), true);
+    const float beside = room - width - (cure ? style.ItemSpacing.x : 0.0f);
+    const bool above = whole && ImGui::CalcTextSize(text.c_str()).x > beside;
+    if (above)
+        note(text);
+    else if (!text.empty())
+        text_elided(text, beside, true);
     if (!cure) return;
-    if (!text.empty()) ImGui::SameLine(0.0f, 0.0f);
+    if (!above && !text.empty()) ImGui::SameLine(0.0f, 0.0f);
     ImGui::SetCursorPosX(left + std::max(0.0f, room - width));
     if (ImGui::SmallButton(cure->title.c_str()))
         for (const CommandCall& call : cure->calls) emit.continuously(call.name, call.arguments);

@@ -61,8 +61,9 @@ struct Verdict {
     std::optional<Cure> cure{};  ///< performs the next step
 };
 
-/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut to fit.
-void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit);
+/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut to fit; or, `whole`,
+/// stands above it.
+void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit, bool whole = false);
 
 /// The maximum lines of a verdict and of the text below it, in a panel of the usual width.
 struct VerdictLines {

@@ -484,14 +484,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     ImGui::TextUnformatted((shown->cause + ".").c_str());
     if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
     ImGui::PopTextWrapPos();
-    for (const Cure& cure : shown->buttons) {
-        const ImGuiStyle& style = ImGui::GetStyle();
-        const float both = ImGui::CalcTextSize(cure.text.c_str()).x + style.ItemSpacing.x +
-                           ImGui::CalcTextSize(cure.title.c_str()).x + 2.0f * style.FramePadding.x;
-        const bool fits = both <= ImGui::GetContentRegionAvail().x;
-        if (!fits) note(cure.text);
-        cure_line(fits ? cure.text : "", cure, emit);
-    }
+    for (const Cure& cure : shown->buttons) cure_line(cure.text, cure, emit, true);
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
     // Scroll to the incident if its mark on the strip was clicked.
     if (appears && workspace.ui.incident_chosen && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);

@@ -107,7 +107,7 @@ void LinkageLab::step(Workspace& workspace) const {
 }
 
 /// A whole turn of the only motor, to the nearest tick.
-int LinkageLab::last_round(const Workspace& workspace) const {
+int LinkageLab::loop_ticks(const Workspace& workspace) const {
     const auto& drives = linkage_part(workspace).drives;
     const Rewind& past = workspace.rewind;
     if (drives.size() != 1 || drives[0].rate == 0.0 || past.empty()) return 0;

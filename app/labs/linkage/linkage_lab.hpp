@@ -32,7 +32,7 @@ class LinkageLab final : public Lab {
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return linkage_part(workspace).time; }
-    int last_round(const Workspace& workspace) const override;
+    int loop_ticks(const Workspace& workspace) const override;
     const Past* past() const override { return &linkage_past(); }
 
     void draw(const View& view, DrawList& list) const override;

@@ -23,7 +23,8 @@ inline Sum add(Sum a, Sum b) {
     return {sum.value, sum.rest + (a.rest + b.rest)};
 }
 
-/// The leading 26 bits, so that products of two such parts are exact (T. Dekker, 1971); magnitudes under 2^996.
+/// The leading 26 bits, so that products of two such parts are exact (T. Dekker, 1971); magnitudes under
+/// 2^996.
 inline double leading(double a) {
     const double scaled = 134217729.0 * a;  // 2^27 + 1
     return scaled - (scaled - a);
@@ -43,7 +44,8 @@ inline Sum half_pi_times(Sum part) {
     return add(angle.value, angle.rest + (half_pi.value * part.rest + half_pi.rest * part.value));
 }
 
-// Sine and cosine up to pi / 4: minimax polynomials, found by Remez' exchange; relative errors 2^-57 and 2^-62.
+// Sine and cosine up to pi / 4: minimax polynomials, found by Remez' exchange; relative errors 2^-57 and
+// 2^-62.
 
 inline double small_sine(Sum angle) {
     const double r = angle.value, z = r * r, zz = z * z;
@@ -74,15 +76,17 @@ struct Reduced {
 /// 1983): its 53 bits times those 192 bits of 2 / pi that tell the quarter of a turn, and the place in it.
 Reduced reduce_huge(double radians) {
     static constexpr std::uint32_t two_over_pi[]{
-        0,           0,           0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u,
-        0xfe5163abu, 0xdebbc561u, 0xb7246e3au, 0x424dd2e0u, 0x06492eeau, 0x09d1921cu, 0xfe1deb1cu, 0xb129a73eu,
-        0xe88235f5u, 0x2ebb4484u, 0xe99c7026u, 0xb45f7e41u, 0x3991d639u, 0x835339f4u, 0x9c845f8bu, 0xbdf9283bu,
-        0x1ff897ffu, 0xde05980fu, 0xef2f118bu, 0x5a0a6d1fu, 0x6d367ecfu, 0x27cb09b7u, 0x4f463f66u, 0x9e5fea2du,
-        0x7527bac7u, 0xebe5f17bu, 0x3d0739f7u, 0x8a5292eau, 0x6bfb5fb1u, 0x1f8d5d08u, 0x56033046u, 0xfc7b6babu};
+        0,           0,           0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u,
+        0x3c439041u, 0xfe5163abu, 0xdebbc561u, 0xb7246e3au, 0x424dd2e0u, 0x06492eeau, 0x09d1921cu,
+        0xfe1deb1cu, 0xb129a73eu, 0xe88235f5u, 0x2ebb4484u, 0xe99c7026u, 0xb45f7e41u, 0x3991d639u,
+        0x835339f4u, 0x9c845f8bu, 0xbdf9283bu, 0x1ff897ffu, 0xde05980fu, 0xef2f118bu, 0x5a0a6d1fu,
+        0x6d367ecfu, 0x27cb09b7u, 0x4f463f66u, 0x9e5fea2du, 0x7527bac7u, 0xebe5f17bu, 0x3d0739f7u,
+        0x8a5292eau, 0x6bfb5fb1u, 0x1f8d5d08u, 0x56033046u, 0xfc7b6babu};
     const auto bits = std::bit_cast<std::uint64_t>(radians);
     const int exponent = static_cast<int>(bits >> 52 & 0x7ff) - 1075;
     const std::uint64_t digits = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{1} << 52;
-    // The table starts 64 bits before the point. Bits that count whole turns are left out but for the last two.
+    // The table starts 64 bits before the point. Bits that count whole turns are left out but for the last
+    // two.
     const int first = exponent + 62, word = first / 32, shift = first % 32;
     const auto part = [&](int k) {
         const std::uint64_t next = shift > 0 ? two_over_pi[word + k + 1] : 0u;
@@ -136,12 +140,14 @@ inline float sine_of(float radians, std::int64_t more_quarters) {
     const std::int64_t number = static_cast<std::int64_t>(quarters) + more_quarters;
     const double size =
         (number & 1) != 0
-            ? ((1.0 - 0.5 * z) + zz * (1.0 / 24 - z * (1.0 / 720))) + zz * zz * (1.0 / 40320 - z * (1.0 / 3628800))
+            ? ((1.0 - 0.5 * z) + zz * (1.0 / 24 - z * (1.0 / 720))) +
+                  zz * zz * (1.0 / 40320 - z * (1.0 / 3628800))
             : r * ((1.0 - z * (1.0 / 6)) + zz * ((1.0 / 120 - z * (1.0 / 5040)) + zz * (1.0 / 362880)));
     return static_cast<float>((number & 2) != 0 ? -size : size);
 }
 
-/// Reduced to the nearest c = k / 8: atan(q) = atan(c) + atan((q - c) / (1 + c q)); the rest by its power series.
+/// Reduced to the nearest c = k / 8: atan(q) = atan(c) + atan((q - c) / (1 + c q)); the rest by its power
+/// series.
 template <bool exact>
 double angle_of(double y, double x) {
     static constexpr Sum eighths[]{{0.0, 0.0},
@@ -169,7 +175,8 @@ double angle_of(double y, double x) {
     }
     const double k = (8.0 * across / along + rounder) - rounder, c = 0.125 * k;
     const double high = exact ? leading(along) : along;  // so that c * high is exact
-    const double above = (across - c * high) - c * (along - high), below = along + c * across, t = above / below;
+    const double above = (across - c * high) - c * (along - high), below = along + c * across,
+                 t = above / below;
     const double z = t * t, zz = z * z;
     const double series = ((1.0 / 3 - z * (1.0 / 5)) + zz * (1.0 / 7 - z * (1.0 / 9))) +
                           zz * zz * ((1.0 / 11 - z * (1.0 / 13)) + zz * (1.0 / 15));
@@ -191,8 +198,8 @@ double angle_of(double y, double x) {
 
 double decay(double x) noexcept {
     if (!(x < 708.0)) return 0.0;
-    // e^-x = 2^-(n / 8) e^-r with |r| <= ln 2 / 16; e^-r by its power series. The products of the first part of
-    // ln 2 / 8 with n are exact.
+    // e^-x = 2^-(n / 8) e^-r with |r| <= ln 2 / 16; e^-r by its power series. The products of the first part
+    // of ln 2 / 8 with n are exact.
     static constexpr Sum powers[]{{0x1.0000000000000p+0, 0.0},
                                   {0x1.d5818dcfba487p-1, 0x1.2ed02d75b3707p-56},
                                   {0x1.ae89f995ad3adp-1, 0x1.7a1cd345dcc81p-55},
@@ -215,10 +222,18 @@ SineCosine sine_cosine(double radians) noexcept {
     const Reduced angle = reduce(radians);
     return {angle.sine(), angle.cosine()};
 }
-double sine(double radians) noexcept { return reduce(radians).sine(); }
-double cosine(double radians) noexcept { return reduce(radians).cosine(); }
-float sine(float radians) noexcept { return sine_of(radians, 0); }
-float cosine(float radians) noexcept { return sine_of(radians, 1); }
+double sine(double radians) noexcept {
+    return reduce(radians).sine();
+}
+double cosine(double radians) noexcept {
+    return reduce(radians).cosine();
+}
+float sine(float radians) noexcept {
+    return sine_of(radians, 0);
+}
+float cosine(float radians) noexcept {
+    return sine_of(radians, 1);
+}
 
 SineCosine sine_cosine_of_turns(double turns) noexcept {
     if (!(std::abs(turns) < 1e14)) return {0.0, 1.0};
@@ -227,7 +242,11 @@ SineCosine sine_cosine_of_turns(double turns) noexcept {
     return {angle.sine(), angle.cosine()};
 }
 
-double arctangent(double y, double x) noexcept { return angle_of<true>(y, x); }
-float arctangent(float y, float x) noexcept { return static_cast<float>(angle_of<false>(y, x)); }
+double arctangent(double y, double x) noexcept {
+    return angle_of<true>(y, x);
+}
+float arctangent(float y, float x) noexcept {
+    return static_cast<float>(angle_of<false>(y, x));
+}
 
 }  // namespace tendril::math

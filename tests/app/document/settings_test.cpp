@@ -75,8 +75,7 @@ TEST(Settings, InvalidValuesKeepTheirDefaultsAndAreNamed) {
 TEST(Settings, OthersAreReadBesideABadOneAndUnknownOnesIgnored) {
     std::vector<std::string> complaints;
     const Settings settings =
-        load(R"({"theme": 3, "from_the_future": [1], "segments": null, "text_scale": 2, "hint_seen": true,
-                 "pending_poses": "shown"})",
+        load(R"({"theme": 3, "from_the_future": [1], "segments": null, "text_scale": 2, "hint_seen": true})",
              complaints);
     EXPECT_TRUE(settings == (Settings{.text_scale = 2.0f, .hint_seen = true}));
     EXPECT_EQ(complaints.size(), 1u);
