@@ -7,7 +7,8 @@
 #include "app/app.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
-#include "app/io/clipboard_picture.hpp"
+#include "app/system/clipboard.hpp"
+#include "app/system/file.hpp"
 #include "app/video_take.hpp"
 
 namespace tendril::app {
@@ -42,7 +43,7 @@ void App::take_picture(const PictureRequest& wanted) {
         const auto text = picture_text(workspace_, lab(), view, wanted);
         const Image image = picture_of(workspace_, lab(), renderer_, view, wanted, text.get());
         if (copies)
-            copy_picture(image);
+            copy_png(encode_png(image));
         else  // a script draws it again
             workspace_.writes().write(wanted.path, OutputKind::Picture, encode_png(image),
                                       !workspace_.outputs.in_window);
@@ -92,7 +93,7 @@ void App::write_video(bool ends) {
         const auto [path, refusal] =
             workspace_.writes().place_at_end(video_->wanted().path, OutputKind::Video);
         video_->commit(path);
-        workspace_.outputs.own(path, Outputs::stamp_of(path));
+        workspace_.outputs.own(path, file_stamp(path));
         if (!refusal.empty()) throw std::runtime_error(refusal + ". The video is " + shown_path(path));
         workspace_.toast(written_text(path));
         drop_video();

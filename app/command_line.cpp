@@ -340,14 +340,14 @@ int print_help(const CLI::App& line, const CLI::ParseError& error) {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv) {
+int run_command_line(const std::vector<std::string>& words) {
     CLI::App line("Tendril: see, tune and export procedural animation.", "tendril");
     SessionLine session;
     session.add_to(line);
     BatchLine batch(line);
     line.require_subcommand(0, 1);
     try {
-        line.parse(argc, argv);
+        line.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
         if (!batch.asked()) {
             session.check();
             return session.run();

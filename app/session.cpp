@@ -16,6 +16,8 @@
 #include "app/labs/files.hpp"
 #include "app/live_loop.hpp"
 #include "app/opening.hpp"
+#include "app/system/environment.hpp"
+#include "app/system/file.hpp"
 
 namespace tendril::app {
 namespace {
@@ -55,7 +57,7 @@ Outputs check_outputs(const SessionOptions& options) {
         before.push_back(file);
         outputs.check({path}, kind, kind != OutputKind::Recording);
         check_writable(path);
-        outputs.own(path, Outputs::stamp_of(path));
+        outputs.own(path, file_stamp(path));
     }
     outputs.in_window = !options.headless;  // refusals so far cannot be asked for again
     return outputs;
@@ -193,14 +195,11 @@ int run_session(const SessionOptions& options) {
 }
 
 void end_session_on_signals() {
-    const auto end = [](int) { ending = true; };
-    std::signal(SIGINT, end);
-    std::signal(SIGTERM, end);
-    std::signal(SIGHUP, end);  // the terminal or login session was closed
+    handle_end_signals([](int) { ending = true; });
 }
 
 void end_at_once_on_signals() {
-    for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
+    handle_end_signals(SIG_DFL);
 }
 
 const std::atomic<bool>& session_ending() {

@@ -1,8 +1,8 @@
 #include "app/batch/progress.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
+
+#include "app/system/environment.hpp"
 
 namespace tendril::app {
 namespace {
@@ -15,7 +15,7 @@ constexpr auto line_pause = 5000ms;     // between two lines
 
 }  // namespace
 
-Progress::Progress() : terminal_(::isatty(STDERR_FILENO) == 1), next_(Clock::now() + first_delay) {}
+Progress::Progress() : terminal_(errors_on_terminal()), next_(Clock::now() + first_delay) {}
 
 void Progress::show(const char* what, double done) {
     const auto now = Clock::now();

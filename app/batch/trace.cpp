@@ -14,6 +14,7 @@
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/io/trace/trace.hpp"
+#include "app/system/file.hpp"
 
 namespace tendril::app {
 namespace {

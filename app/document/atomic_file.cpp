@@ -1,20 +1,12 @@
 #include "app/document/atomic_file.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <atomic>
-#include <cerrno>
-#include <chrono>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <thread>
-#include <utility>
+
+#include "app/system/environment.hpp"
+#include "app/system/file.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -58,58 +50,28 @@ bool is_stream(const fs::file_status& status) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+constexpr char slash = static_cast<char>(fs::path::preferred_separator);
+
 constexpr std::string_view torn_start = ".tendril-", torn_end = ".tmp";
 
 /// A name that no other writer is using, in this program or another.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-    return folder / (std::string(torn_start) + std::to_string(::getpid()) + "-" + std::to_string(counter++) +
+    return folder / (std::string(torn_start) + std::to_string(process_id()) + "-" + std::to_string(counter++) +
                      std::string(torn_end));
 }
 
-std::string last_error() {
-    return std::generic_category().message(errno);
-}
-
-/// Refuses to replace a read-only file; rename() alone would not check.
+/// Refuses to replace a read-only file; renaming alone would not check.
 void check_permission(const fs::path& path) {
-    if (::access(path.c_str(), W_OK) != 0 && errno != ENOENT) fail(path, last_error());
-}
-
-int open_file(const fs::path& path, int flags) {
-    int fd = -1;
-    do fd = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-    while (fd < 0 && errno == EINTR);
-    return fd;
-}
-
-bool write_all(int fd, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(fd, bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR) return false;
-        if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return true;
-}
-
-/// Opening a pipe blocks until somebody reads it; this gives up after 5 s.
-int open_stream(const fs::path& path) {
-    using Time = std::chrono::steady_clock;
-    const auto end = Time::now() + std::chrono::seconds(5);
-    int fd = -1;
-    while ((fd = open_file(path, O_WRONLY | O_NONBLOCK)) < 0 && errno == ENXIO && Time::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (fd < 0) fail(path, errno == ENXIO ? "nobody reads from this pipe" : last_error());
-    ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK);
-    return fd;
+    if (!may_write(path)) fail(path, last_error().message());
 }
 
 void write_stream(const fs::path& path, std::string_view bytes) {
-    const int fd = open_stream(path);
-    const bool written = write_all(fd, bytes);
-    const std::string reason = last_error();
-    ::close(fd);
-    if (!written) fail(path, reason);
+    SystemFile stream = SystemFile::open_stream(path);
+    if (!stream)
+        fail(path, last_error() == std::errc::no_such_device_or_address ? "nobody reads from this pipe"
+                                                                        : last_error().message());
+    if (!stream.write(bytes)) fail(path, last_error().message());
 }
 
 }  // namespace
@@ -120,73 +82,42 @@ class AtomicFile::Beside {
     Beside(const fs::path& target, const fs::path& folder) : target_(target) {
         // A killed program with the same process ID may have left a file of this name.
         constexpr int tries = 1000;
-        for (int i = 0; i < tries && fd_ < 0; ++i) {
+        for (int i = 0; i < tries && !file_; ++i) {
             name_ = temporary_name(folder);
-            fd_ = open_file(name_, O_WRONLY | O_CREAT | O_EXCL);
-            if (fd_ < 0 && errno != EEXIST) break;
+            file_ = SystemFile::create(name_);
+            if (!file_ && last_error() != std::errc::file_exists) break;
             // Until it is locked, another program may mistake it for a leftover and delete it.
-            struct stat made {};
-            const bool taken = fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-            if (taken || (fd_ >= 0 && ::fstat(fd_, &made) == 0 && made.st_nlink == 0))
-                ::close(std::exchange(fd_, -1));
+            const bool taken = file_ && !file_.try_lock() && last_error() == std::errc::operation_would_block;
+            if (file_ && (taken || !file_.has_name(name_))) file_.close();
         }
-        if (fd_ < 0) fail(target_, last_error());
+        require(static_cast<bool>(file_));
     }
     ~Beside() {
-        if (fd_ >= 0) ::close(fd_);
-        if (!moved_) ::unlink(name_.c_str());
+        if (moved_) return;
+        std::error_code ignored;
+        fs::remove(name_, ignored);
     }
     Beside(const Beside&) = delete;
     Beside& operator=(const Beside&) = delete;
 
     const fs::path& name() const { return name_; }
-    void append(std::string_view bytes) { require(write_all(fd_, bytes)); }
-    /// Returns once all data is on disk, with the permissions of `old` if that exists.
-    void finish(const fs::path& old) {
-        struct stat before {};
-        if (::stat(old.c_str(), &before) == 0) require(::fchmod(fd_, before.st_mode & 07777) == 0);
-        require(::fsync(fd_) == 0);
-    }
+    void append(std::string_view bytes) { require(file_.write(bytes)); }
+    /// Returns once all data is on disk, under its final name and with the permissions of the file that it replaces.
     void move_over(const fs::path& file) {
-        require(::rename(name_.c_str(), file.c_str()) == 0);
+        require(file_.copy_permissions(file) && file_.sync());
+        require(replace_file(name_, file));
         moved_ = true;
-        ::close(std::exchange(fd_, -1));  // until here its lock showed that it is not torn
-        // The rename has succeeded; a file system that cannot sync a folder is no error.
-        const int folder = open_file(folder_of(file), O_RDONLY | O_DIRECTORY);
-        if (folder < 0) return;
-        ::fsync(folder);
-        ::close(folder);
+        file_.close();  // until here its lock showed that it is not torn
     }
 
   private:
     void require(bool done) const {
-        if (!done) fail(target_, last_error());
+        if (!done) fail(target_, last_error().message());
     }
     fs::path target_, name_;
-    int fd_ = -1;
+    SystemFile file_;
     bool moved_ = false;
 };
-
-namespace {
-
-/// Signals that would end the program wait until the temporary file is gone.
-class SignalsWait {
-  public:
-    SignalsWait() {
-        sigset_t set;
-        ::sigemptyset(&set);
-        for (const int each : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&set, each);
-        ::pthread_sigmask(SIG_BLOCK, &set, &before_);
-    }
-    ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    SignalsWait(const SignalsWait&) = delete;
-    SignalsWait& operator=(const SignalsWait&) = delete;
-
-  private:
-    sigset_t before_{};
-};
-
-}  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
     if (is_stream(check_place(path))) return write_stream(path, bytes);
@@ -215,7 +146,6 @@ const fs::path& AtomicFile::beside() const {
 
 void AtomicFile::commit(const fs::path& other) {
     const fs::path& file = other.empty() ? file_ : other;
-    beside_->finish(file);
     beside_->move_over(file);
 }
 
@@ -231,11 +161,10 @@ void remove_torn_files(const fs::path& folder) {
     for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
         const std::string name = each->path().filename().string();
         if (!name.starts_with(torn_start) || !name.ends_with(torn_end)) continue;
-        const int fd = open_file(each->path(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
-        if (fd < 0) continue;
         // Its writer holds the lock as long as it runs.
-        if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(each->path().c_str());
-        ::close(fd);
+        SystemFile file = SystemFile::open(each->path());
+        std::error_code ignored;
+        if (file && file.try_lock()) fs::remove(each->path(), ignored);
     }
 }
 
@@ -251,16 +180,15 @@ void check_writable(const fs::path& path) {
 std::string shown_path(const fs::path& path) {
     std::error_code ignored;
     std::string text = fs::absolute(path, ignored).lexically_normal().string();
-    const char* const home = std::getenv("HOME");
-    const std::string under = home != nullptr ? std::string(home) + '/' : std::string();
-    if (under.size() > 2 && text.starts_with(under)) text = "~/" + text.substr(under.size());
+    const std::string under = home_folder() + slash;
+    if (under.size() > 2 && text.starts_with(under)) text = std::string("~") + slash + text.substr(under.size());
     if (text.size() <= longest_shown_path) return text;
-    const std::size_t first = text.find('/', 1);
+    const std::size_t first = text.find(slash, 1);
     if (first == text.npos) return text;
-    const std::string begin = text.substr(0, first) + "/...";
-    std::size_t end = text.rfind('/');
+    const std::string begin = text.substr(0, first) + slash + "...";
+    std::size_t end = text.rfind(slash);
     while (end > first) {
-        const std::size_t up = text.rfind('/', end - 1);
+        const std::size_t up = text.rfind(slash, end - 1);
         if (up <= first || begin.size() + text.size() - up > longest_shown_path) break;
         end = up;
     }

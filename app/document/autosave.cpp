@@ -1,11 +1,7 @@
 #include "app/document/autosave.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
-#include <ctime>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,6 +9,7 @@
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/system/environment.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -21,7 +18,7 @@ namespace {
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
 /// The stem of the newest Autosave; recover() derives file names from it.
-std::string own_stem = std::to_string(::getpid());
+std::string own_stem = std::to_string(process_id());
 
 std::string name_for(const std::string& stem) {
     return std::string(name_start).append(stem).append(name_end);
@@ -78,7 +75,7 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     fs::create_directories(folder_, ignored);
     remove_torn_files(folder_);
     remove_left_locks(folder_);
-    const std::string pid = std::to_string(::getpid());
+    const std::string pid = std::to_string(process_id());
     for (int i = 1; !lock_ && i < 100; ++i) {
         stem_ = i == 1 ? pid : pid + "_" + std::to_string(i);
         // A crashed program may have had the same process ID: leave its files alone.
@@ -168,11 +165,8 @@ std::string Autosave::title(const fs::path& file) {
     } catch (const std::exception&) {
         // Errors are reported when the file is opened.
     }
-    struct stat written {};
-    char when[64] = "";
-    if (std::tm parts{}; ::stat(file.c_str(), &written) == 0 && ::localtime_r(&written.st_mtime, &parts))
-        std::strftime(when, sizeof when, ", %Y-%m-%d %H:%M", &parts);
-    return name + when;
+    const FileStamp written = file_stamp(file);
+    return written == FileStamp() ? name : name + local_time(written.seconds, ", %Y-%m-%d %H:%M");
 }
 
 void Autosave::recover(Workspace& workspace, const fs::path& file) {

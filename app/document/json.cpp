@@ -1,9 +1,5 @@
 #include "app/document/json.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -17,6 +13,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/system/file.hpp"
 
 namespace tendril::app {
 namespace {
@@ -157,34 +154,6 @@ std::string reason_of(const std::exception& error) {
     return error.what();
 }
 
-std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
-    std::error_code error;
-    // The shell's own pipes, /dev/stdin and /dev/fd/63, already have a writer.
-    const std::string name = path.string();
-    if (!std::filesystem::is_fifo(path, error) || name.starts_with("/dev/") || name.starts_with("/proc/"))
-        return nullptr;
-    const auto open_end = [&](int flags) {
-        return std::shared_ptr<const int>(new int(::open(path.c_str(), flags | O_NONBLOCK | O_CLOEXEC)),
-                                          [](const int* fd) {
-                                              if (*fd >= 0) ::close(*fd);
-                                              delete fd;
-                                          });
-    };
-    const auto reader = open_end(O_RDONLY);
-    struct pollfd wanted {};
-    wanted.fd = *reader;
-    wanted.events = POLLIN;
-    constexpr int patience = 5000;  // ms
-    int ready = 1;
-    if (*reader >= 0) do
-            ready = ::poll(&wanted, 1, patience);
-        while (ready < 0 && errno == EINTR);
-    if (ready == 0) fail(name, "nothing came through this pipe for 5 s");
-    // This end also writes, so the next open for reading does not block.
-    return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(
-        reader, open_end(O_RDWR));
-}
-
 std::string read_text_file(const std::filesystem::path& path) {
     const std::string shown = path.string();
     if (shown.find('\0') != std::string::npos) throw std::runtime_error("not a file name");
@@ -198,7 +167,7 @@ std::string read_text_file(const std::filesystem::path& path) {
         fail(shown, too_large);
 
     auto pipe = await_pipe(path);
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(shown.c_str(), "rb"), &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), &std::fclose);
     pipe.reset();
     if (!file) fail(shown, std::generic_category().message(errno));
     std::string text;

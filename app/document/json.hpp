@@ -77,11 +77,6 @@ int json_line(std::string_view text, std::string_view path);
 /// The exception's message. The JSON library's own messages are replaced by one in our words.
 std::string reason_of(const std::exception& error);
 
-/// Waits until a named pipe has data, because opening one would block until its writer does. Throws
-/// std::runtime_error naming the path if nothing arrives within 5 s. Keep the returned value until the pipe
-/// is open.
-[[nodiscard]] std::shared_ptr<void> await_pipe(const std::filesystem::path& path);
-
 /// Reads a whole file, pipe or device of at most max_file_bytes. Throws std::runtime_error naming the path.
 std::string read_text_file(const std::filesystem::path& path);
 /// read_text_file and parse_json; the message is "<path>: line 3: <reason>".

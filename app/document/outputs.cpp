@@ -1,7 +1,5 @@
 #include "app/document/outputs.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -143,14 +141,7 @@ bool reads(const fs::path& input, const fs::path& path) {
 
 }  // namespace
 
-Outputs::Stamp Outputs::stamp_of(const fs::path& path) {
-    struct stat found {};
-    if (::stat(path.c_str(), &found) != 0) return {};
-    return {found.st_dev, found.st_ino, static_cast<std::uint64_t>(found.st_size), found.st_mtim.tv_sec,
-            found.st_mtim.tv_nsec};
-}
-
-void Outputs::own(const fs::path& path, const Stamp& stamp) {
+void Outputs::own(const fs::path& path, const FileStamp& stamp) {
     const fs::path file = canonical_name(path);
     owned_[file] = stamp;
     asked_.erase(file);
@@ -167,14 +158,14 @@ void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool re
         if (fs::file_size(path, error) == 0) continue;
         if (!is(kind, ends_of(path))) refuse(path, std::string("is not replaced: it is not ") + name(kind));
         const auto owned = owned_.find(canonical_name(path));
-        const bool own = owned != owned_.end() && owned->second == stamp_of(path);
+        const bool own = owned != owned_.end() && owned->second == file_stamp(path);
         if (!force && !redraws && !own) others.push_back(path);
     }
     bool asked = in_window || others.empty();
     for (const fs::path& path : others) {
-        Stamp& last = asked_[canonical_name(path)];
-        asked &= last == stamp_of(path);
-        last = stamp_of(path);
+        FileStamp& last = asked_[canonical_name(path)];
+        asked &= last == file_stamp(path);
+        last = file_stamp(path);
     }
     if (asked) return;
     const std::string more = others.size() > 1 ? "and " + std::to_string(others.size() - 1) + " more " : "";
@@ -207,7 +198,7 @@ void Outputs::write(const fs::path& path, OutputKind kind, std::string_view byte
                       text_of(path) == bytes;
     if (!same) check({path}, kind, redraws);
     write_file_atomically(path, bytes);
-    own(path, stamp_of(path));
+    own(path, file_stamp(path));
 }
 
 }  // namespace tendril::app

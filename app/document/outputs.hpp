@@ -7,12 +7,13 @@
 // replaces any other file if it is asked once more; a terminal needs --force.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "app/system/file.hpp"
 
 namespace tendril::app {
 
@@ -20,14 +21,6 @@ enum class OutputKind { Scene, Recording, State, Picture, Video, Motion, BoneMap
 
 class Outputs {
   public:
-    /// Changes whenever another program writes the file. All 0: there is no file.
-    struct Stamp {
-        std::uint64_t device = 0, file = 0, size = 0;
-        std::int64_t seconds = 0, nanoseconds = 0;
-        bool operator==(const Stamp&) const = default;
-    };
-    static Stamp stamp_of(const std::filesystem::path& path);
-
     bool force = false;                         ///< --force
     bool in_window = false;                     ///< for the message: a window asks, a terminal refuses
     std::vector<std::filesystem::path> inputs;  ///< files that the session reads
@@ -50,11 +43,11 @@ class Outputs {
     void write(const std::filesystem::path& path, OutputKind kind, std::string_view bytes,
                bool redraws = false);
     /// The session has opened or written this file when its stamp was that: it may replace it.
-    void own(const std::filesystem::path& path, const Stamp& stamp);
+    void own(const std::filesystem::path& path, const FileStamp& stamp);
 
   private:
-    std::map<std::filesystem::path, Stamp> owned_;
-    std::map<std::filesystem::path, Stamp> asked_;  ///< refused because they existed like this
+    std::map<std::filesystem::path, FileStamp> owned_;
+    std::map<std::filesystem::path, FileStamp> asked_;  ///< refused because they existed like this
     std::string asked_loss_{};                      ///< refused by confirm()
 
     const char* again() const {

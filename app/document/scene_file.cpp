@@ -306,7 +306,7 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
 }
 
 std::vector<LabNote> load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
-    const Outputs::Stamp stamp = Outputs::stamp_of(path);  // before reading: later changes are noticed
+    const FileStamp stamp = file_stamp(path);  // before reading: later changes are noticed
     const std::string text = read_text_file(path);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::vector<LabNote> notes;

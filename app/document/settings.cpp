@@ -1,7 +1,6 @@
 #include "app/document/settings.hpp"
 
 #include <array>
-#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -58,13 +57,6 @@ class Reader {
     std::vector<std::string>& complaints_;
 };
 
-std::filesystem::path folder_from(const char* variable, const char* below) {
-    const char* value = std::getenv(variable);
-    const std::filesystem::path folder = value ? value : "";
-    // A relative path would depend on the working directory.
-    return folder.is_absolute() ? folder / below : std::filesystem::path();
-}
-
 }  // namespace
 
 bool is_folded(const Settings& settings, const std::string& section, bool at_first) {
@@ -113,13 +105,6 @@ Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
     for (const auto& [key, value] : json.items())
         if (value.is_string() && !own.contains(key)) settings.choices[key] = value.get<std::string>();
     return settings;
-}
-
-std::filesystem::path config_folder() {
-    for (const auto& [variable, below] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"XDG_CONFIG_HOME", "tendril"}, {"HOME", ".config/tendril"}})
-        if (auto folder = folder_from(variable, below); !folder.empty()) return folder;
-    return {};
 }
 
 }  // namespace tendril::app

@@ -2,7 +2,6 @@
 // (an open palette, a toast) is UiState in workspace.hpp and is not saved.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -41,8 +40,5 @@ Json save_settings(const Settings& settings);
 /// is reported in `complaints`. A string under an unknown name is kept in `choices`; other unknown members
 /// are ignored.
 Settings load_settings(const Json& json, std::vector<std::string>& complaints);
-
-/// $XDG_CONFIG_HOME/tendril, else ~/.config/tendril; empty if neither variable is an absolute path.
-std::filesystem::path config_folder();
 
 }  // namespace tendril::app

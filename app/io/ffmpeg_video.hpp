@@ -7,7 +7,7 @@
 #include <chrono>
 #include <optional>
 
-#include "app/io/child_process.hpp"
+#include "app/system/child_process.hpp"
 #include "app/io/video_file.hpp"
 
 namespace tendril::app {

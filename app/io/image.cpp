@@ -1,12 +1,15 @@
 #include "app/io/image.hpp"
 
+#include <cerrno>
 #include <climits>
 #include <cstddef>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "app/document/atomic_file.hpp"
+#include "app/system/file.hpp"
 #include "app/window/gl.hpp"
 
 // Static, since some systems' Dear ImGui includes a whole stb library with the same names.
@@ -89,7 +92,9 @@ void write_png(const std::filesystem::path& path, const Image& image) {
 Image read_png(const std::filesystem::path& path) {
     Image image;
     int found = 0;
-    stbi_uc* const pixels = stbi_load(path.string().c_str(), &image.size.x, &image.size.y, &found, channels);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), &std::fclose);
+    if (!file) throw std::runtime_error("cannot read " + path.string() + ": " + std::generic_category().message(errno));
+    stbi_uc* const pixels = stbi_load_from_file(file.get(), &image.size.x, &image.size.y, &found, channels);
     if (pixels == nullptr)
         throw std::runtime_error("cannot read " + path.string() + ": " + stbi_failure_reason());
     try {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "app/io/apng.hpp"
-#include "app/io/child_process.hpp"
+#include "app/system/child_process.hpp"
 #include "app/io/ffmpeg_video.hpp"
 
 namespace tendril::app {

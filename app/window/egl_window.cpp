@@ -4,7 +4,7 @@
 
 #include "app/window/gl.hpp"
 #include "app/window/offscreen_window.hpp"
-#include "app/window/shared_library.hpp"
+#include "app/system/shared_library.hpp"
 
 #ifdef TENDRIL_HAS_EGL
 #define EGL_NO_X11  // keeps X11's macros out

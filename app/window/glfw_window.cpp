@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/window/glfw_keys.hpp"
+#include "app/window/offscreen_window.hpp"
 
 namespace tendril::app {
 namespace {
@@ -37,6 +38,30 @@ struct Library {
     ~Library() { glfwTerminate(); }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
+};
+
+/// A window that is not shown yet. Its context is current and its GL loaded.
+GLFWwindow* open_hidden(glm::ivec2 size) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 24);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "tendril");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "tendril");
+    GLFWwindow* const window = glfwCreateWindow(size.x, size.y, "Tendril", nullptr, nullptr);
+    if (window == nullptr) throw std::runtime_error("no window with OpenGL 3.3: " + take_error());
+    glfwMakeContextCurrent(window);
+    load_gl(glfwGetProcAddress, "GLFW");
+    return window;
+}
+
+/// A window that is never shown: a context to draw off screen with, where nothing else gives one.
+class HiddenContext {
+    Library library_;
+    GLFWwindow* window_ = open_hidden({64, 64});  // glfwTerminate() closes it
 };
 
 int cursor_shape(Cursor cursor) {
@@ -111,7 +136,7 @@ class GlfwWindow final : public Window {
     void report_size() { pending_.emplace_back(Resize{size()}); }
 
     Library library_;
-    GLFWwindow* window_ = nullptr;
+    GLFWwindow* window_;
     std::vector<Event> pending_;
     std::array<Key, GLFW_KEY_LAST + 1> held_{};  ///< name of each held key when it was pressed
     std::array<GLFWcursor*, 5> cursors_{};       ///< created on first use; glfwTerminate() frees them
@@ -119,20 +144,7 @@ class GlfwWindow final : public Window {
     bool shown_ = false;
 };
 
-GlfwWindow::GlfwWindow(glm::ivec2 size) {
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 24);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is a picture
-    glfwWindowHintString(GLFW_X11_CLASS_NAME, "tendril");
-    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "tendril");
-    window_ = glfwCreateWindow(size.x, size.y, "Tendril", nullptr, nullptr);
-    if (window_ == nullptr) throw std::runtime_error("no window with OpenGL 3.3: " + take_error());
-    glfwMakeContextCurrent(window_);
-    load_gl(glfwGetProcAddress, "GLFW");
+GlfwWindow::GlfwWindow(glm::ivec2 size) : window_(open_hidden(size)) {
     glfwSwapInterval(1);
     listen();
     listen_to_input();
@@ -256,6 +268,10 @@ void GlfwWindow::set_cursor(Cursor cursor) {
 
 std::unique_ptr<Window> open_glfw_window(glm::ivec2 size) {
     return std::make_unique<GlfwWindow>(size);
+}
+
+std::unique_ptr<Window> open_hidden_window(glm::ivec2 size) {
+    return std::make_unique<OffscreenWindow<HiddenContext>>(size);
 }
 
 }  // namespace tendril::app

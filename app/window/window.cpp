@@ -1,6 +1,7 @@
 #include "app/window/window.hpp"
 
 #include <stdexcept>
+#include <string>
 
 #include "app/window/egl_window.hpp"
 #include "app/window/gl.hpp"
@@ -24,16 +25,15 @@ std::unique_ptr<Window> open_window(Backend backend, glm::ivec2 size) {
 
 std::unique_ptr<Window> open_offscreen(glm::ivec2 size) {
     check_window_size(size);
-    try {
-        return open_osmesa_window(size);
-    } catch (const std::runtime_error& no_osmesa) {
+    std::string tried;
+    for (const auto open : {open_osmesa_window, open_egl_window, open_hidden_window}) {
         try {
-            return open_egl_window(size);
-        } catch (const std::runtime_error& no_egl) {
-            throw std::runtime_error(std::string("nothing to draw with off screen: ") + no_osmesa.what() +
-                                     "; " + no_egl.what());
+            return open(size);
+        } catch (const std::runtime_error& error) {
+            tried += (tried.empty() ? "" : "; ") + std::string(error.what());
         }
     }
+    throw std::runtime_error("nothing to draw with off screen: " + tried);
 }
 
 }  // namespace tendril::app

@@ -23,6 +23,7 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/kit/flips.hpp"
+#include "app/system/file.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fields.hpp"
 

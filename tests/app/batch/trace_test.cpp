@@ -1,7 +1,7 @@
 // `tendril trace` as a terminal runs it, and the writers that engines copy.
 #include <regex>
 
-#include "app/io/child_process.hpp"
+#include "app/system/child_process.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/writers/tendril_trace.hpp"
 #include "tests/app/io/trace_support.hpp"

@@ -13,6 +13,7 @@
 #include "app/document/outputs.hpp"
 #include "app/document/settings.hpp"
 #include "app/document/units.hpp"
+#include "app/system/environment.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 

@@ -126,15 +126,15 @@ Outcome run_here(const std::vector<std::string>& arguments, const std::filesyste
     const std::optional<std::string> before =
         configured ? std::optional<std::string>(configured) : std::nullopt;
     ::setenv("XDG_CONFIG_HOME", config.path().c_str(), 1);
-    std::vector<const char*> words{"tendril"};
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
+    std::vector<std::string> words{"tendril"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
 
     Outcome outcome;
     const std::clock_t began = std::clock();
     if (!folder.empty()) std::filesystem::current_path(folder);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    outcome.exit_code = app::run_command_line(static_cast<int>(words.size()), words.data());
+    outcome.exit_code = app::run_command_line(words);
     outcome.err = testing::internal::GetCapturedStderr();
     outcome.out = testing::internal::GetCapturedStdout();
     outcome.cpu_seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;

@@ -5,14 +5,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/system/file.hpp"
+
 namespace tendril::app {
 
 class FileLock {
   public:
     /// Creates and locks the file; null if another holder has it or it cannot be created.
-    static std::unique_ptr<FileLock> take(const std::filesystem::path& file);
+    static std::unique_ptr<FileLock> take(const std::filesystem::path& path);
     /// Whether any program holds it, including this one.
-    static bool is_held(const std::filesystem::path& file);
+    static bool is_held(const std::filesystem::path& path);
 
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
@@ -20,9 +22,9 @@ class FileLock {
     ~FileLock();
 
   private:
-    FileLock(std::filesystem::path file, int fd) : file_(std::move(file)), fd_(fd) {}
-    std::filesystem::path file_;
-    int fd_;
+    FileLock(std::filesystem::path path, SystemFile file) : path_(std::move(path)), file_(std::move(file)) {}
+    std::filesystem::path path_;
+    SystemFile file_;
 };
 
 }  // namespace tendril::app

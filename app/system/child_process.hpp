@@ -1,8 +1,6 @@
 // Runs another program without a shell, writes to its input and checks its exit code.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -35,19 +33,17 @@ class ChildProcess {
     void finish(double seconds);
 
   private:
-    [[noreturn]] void fail(const std::string& otherwise);
-    void close_input();
-    bool ended();
-    std::string last_line() const;
-
+    class Running;  ///< the system's side
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
+
+    [[noreturn]] void fail(const std::string& otherwise);
+    std::string last_line() const;
+
     std::string name_;
     std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< its stderr; a pipe could fill up and block it
-    int input_ = -1;
-    pid_t id_ = -1;  ///< -1 once it has ended
-    int status_ = 0;
+    std::unique_ptr<Running> running_;
 };
 
 }  // namespace tendril::app

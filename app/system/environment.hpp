@@ -1,0 +1,36 @@
+// The process and its surroundings. Texts are UTF-8 on every system.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tendril::app {
+
+int process_id();
+
+/// The command line's words, the program's name first, from main()'s arguments. Once, at the start: on Windows it also
+/// has the console and pipes take bytes as they are, and leaves a console that was opened for this program alone.
+std::vector<std::string> begin_program(int count, const char* const* words);
+
+/// Has `handler` called when the program is asked to end: by Ctrl+C, by another program, or since its terminal or login
+/// session was closed. It may only set flags. SIG_DFL ends the program at once.
+void handle_end_signals(void (*handler)(int));
+
+/// Empty if it is not set.
+std::string environment_variable(const char* name);
+
+/// Whether stderr is a terminal that takes escape sequences.
+bool errors_on_terminal();
+
+/// The folder that "~" stands for; empty if there is none or no such custom.
+std::string home_folder();
+/// Where this user's settings and autosaves are kept: below XDG_CONFIG_HOME if that is set, else in ~/.config or, on
+/// Windows, in AppData\Roaming. Empty if nothing says where.
+std::filesystem::path config_folder();
+
+/// Unix time as strftime's `format` has it, in this machine's time zone; empty if it cannot be told.
+std::string local_time(std::int64_t seconds, const char* format);
+
+}  // namespace tendril::app
