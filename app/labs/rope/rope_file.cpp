@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <tendril/magnitude.hpp>
 #include <utility>
@@ -324,9 +325,11 @@ Json RopeLab::state(const Workspace& workspace) const {
     const std::vector<OverPulled> pulled = over_pulled(world);
     for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie, pulled));
     Json collisions = Json::array();
+    // In the order of the bodies: slots are given anew when a scene is opened.
+    std::set<std::pair<const rope::Body*, const rope::Body*>> pairs;
     for (const rope::Collision& each : now.collisions)
-        collisions.push_back(
-            {world.name(*world.world().find(each.a)), world.name(*world.world().find(each.b))});
+        pairs.insert(std::minmax(world.world().find(each.a), world.world().find(each.b)));
+    for (const auto& [a, b] : pairs) collisions.push_back({world.name(*a), world.name(*b)});
     Json held = nullptr;
     if (part.hold) {
         held = save_fields(*part.hold);

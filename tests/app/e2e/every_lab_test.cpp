@@ -72,6 +72,7 @@ void expect_goes_on_as(Workspace original, Workspace opened, const Lab& lab) {
     EXPECT_EQ(opened.clock.speed, original.clock.speed);
     original.forget_pasts();
     opened.clock = original.clock;
+    opened.ui.plays_after_dialog = original.ui.plays_after_dialog;
     opened.settings = original.settings;
     const bool slow = lab.tick_work(original) > 20'000;
     for (const int ticks : {0, slow ? 0 : 300 / sanitizer_factor}) {
