@@ -36,6 +36,11 @@ double any_double(test::Random& random) {
     return std::isfinite(value) ? value : 1.0;
 }
 
+/// False where the system computes them by x87's own instruction, as MinGW-w64's library does.
+bool has_exact_sines() {
+    return std::abs(std::sin(1e22L) + 0.85220084976718880177L) < 1e-18L;
+}
+
 class Elementary : public testing::Test {
   protected:
     static constexpr int cases = 30'000;
@@ -47,6 +52,7 @@ class Elementary : public testing::Test {
 };
 
 TEST_F(Elementary, SinesAndCosinesAreWithinOneUnitInTheLastPlace) {
+    if (!has_exact_sines()) GTEST_SKIP() << "this system's long double sine is wrong for large angles";
     double worst = 0.0;
     for (int i = 0; i < test::rounds(cases); ++i) {
         const double quarter = 1.5707963267948966 * std::round(around(1e6));
@@ -63,6 +69,7 @@ TEST_F(Elementary, SinesAndCosinesAreWithinOneUnitInTheLastPlace) {
 }
 
 TEST_F(Elementary, FloatsAreWithinSixTenthsOfAUnit) {
+    if (!has_exact_sines()) GTEST_SKIP() << "this system's long double sine is wrong for large angles";
     for (int i = 0; i < test::rounds(cases); ++i) {
         const auto any = std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
         for (const float angle : {static_cast<float>(around(4.0)), static_cast<float>(around(1e7)), any}) {
