@@ -23,19 +23,41 @@ std::vector<CommandCall> bones_and_a_control() {
 
 namespace {
 
-/// The lab's scenes: its opening, its test scenes, and every preset.
-std::vector<Shown> scenes_of(const Lab& lab, const CommandTable& table) {
-    std::vector<Shown> all{{"as it opens", lab.opening()}};
-    for (const TestScene& scene : lab.test_scenes()) all.push_back({scene.name, scene.commands});
+/// The names of the lab's presets.
+std::vector<std::string> presets_of(const Lab& lab) {
+    CommandTable table;
+    lab.add_commands(table);
     if (const Command* preset = table.find(lab.name() + ".preset"))
         for (const Argument& argument : preset->arguments)
-            if (argument.name == "name")
-                for (const std::string& name : argument.choices)
-                    all.push_back({"preset " + name, {call(preset->name.c_str(), {{"name", name}})}});
+            if (argument.name == "name") return argument.choices;
+    return {};
+}
+CommandCall preset_call(const Lab& lab, const std::string& name) {
+    return {lab.name() + ".preset", {{"name", name}}};
+}
+
+/// Paths begin at the top of the project.
+void add_commands_of(const Json& scene, std::vector<CommandCall>& commands) {
+    for (const Json& line : scene.at("commands")) {
+        CommandCall& made = commands.emplace_back(CommandCall{line.at("command")});
+        for (const auto& [name, value] : line.items())
+            if (name == "path")
+                made.arguments.push_back({name, source_path(value)});
+            else if (name != "command")
+                made.arguments.push_back({name, SharedJson(value)});
+    }
+}
+
+/// The lab's scenes: its opening, its test scenes, and every preset.
+std::vector<Shown> scenes_of(const Lab& lab) {
+    std::vector<Shown> all{{"as it opens", lab.opening()}};
+    for (const TestScene& scene : test_scenes(lab)) all.push_back({scene.name, scene.commands});
+    for (const std::string& name : presets_of(lab))
+        all.push_back({"preset " + name, {preset_call(lab, name)}});
     return all;
 }
 
-/// A scene for every kind of object of a lab that can be selected; paths begin at the top of the project.
+/// A scene for every kind of object of a lab that can be selected.
 std::vector<Shown> full_scenes(const std::string& lab) {
     std::vector<Shown> all;
     if (lab == "signal")
@@ -47,14 +69,7 @@ std::vector<Shown> full_scenes(const std::string& lab) {
     for (const Json& scene : file.value(lab, Json::array())) {
         Shown shown{scene.at("name"), {}, scene.value("ticks", Shown().ticks)};
         if (lab == "rig") shown.commands = bones_and_a_control();
-        for (const Json& line : scene.at("commands")) {
-            CommandCall& made = shown.commands.emplace_back(CommandCall{line.at("command")});
-            for (const auto& [name, value] : line.items())
-                if (name == "path")
-                    made.arguments.push_back({name, source_path(value)});
-                else if (name != "command")
-                    made.arguments.push_back({name, SharedJson(value)});
-        }
+        add_commands_of(scene, shown.commands);
         all.push_back(std::move(shown));
     }
     return all;
@@ -62,8 +77,22 @@ std::vector<Shown> full_scenes(const std::string& lab) {
 
 }  // namespace
 
-std::vector<Shown> all_scenes(const Lab& lab, const CommandTable& table) {
-    std::vector<Shown> all = scenes_of(lab, table);
+std::vector<TestScene> test_scenes(const Lab& lab) {
+    std::vector<TestScene> all;
+    const Json file = read_json_file(source_path("tests/app/data/test_scenes.json"));
+    if (!file.contains(lab.name())) return all;
+    const std::vector<std::string> words = file[lab.name()].at("words");
+    for (const Json& scene : file[lab.name()].at("scenes"))
+        if (scene.contains("presets"))
+            for (const std::string& name : presets_of(lab))
+                all.push_back({name, {preset_call(lab, name)}, words});
+        else
+            add_commands_of(scene, all.emplace_back(TestScene{scene.at("name"), {}, words}).commands);
+    return all;
+}
+
+std::vector<Shown> all_scenes(const Lab& lab) {
+    std::vector<Shown> all = scenes_of(lab);
     for (Shown& each : full_scenes(lab.name())) all.push_back(std::move(each));
     std::set<std::string> seen;
     std::erase_if(all, [&](const Shown& shown) {
