@@ -36,12 +36,12 @@ CommandCall preset_call(const Lab& lab, const std::string& name) {
     return {lab.name() + ".preset", {{"name", name}}};
 }
 
-/// Paths begin at the top of the project.
+/// Paths of files begin with "tests/", at the top of the project.
 void add_commands_of(const Json& scene, std::vector<CommandCall>& commands) {
     for (const Json& line : scene.at("commands")) {
         CommandCall& made = commands.emplace_back(CommandCall{line.at("command")});
         for (const auto& [name, value] : line.items())
-            if (name == "path")
+            if (value.is_string() && value.get_ref<const std::string&>().starts_with("tests/"))
                 made.arguments.push_back({name, source_path(value)});
             else if (name != "command")
                 made.arguments.push_back({name, SharedJson(value)});
