@@ -88,15 +88,6 @@ struct LegendRow {
     bool handle = false;  ///< of handles or the selection, which pictures leave out
 };
 
-/// A starting scene for tests that run over every lab: they send it random events and commands, and a replay
-/// must end in the same state. Small scenes also seed the scene fuzzer.
-struct TestScene {
-    std::string name;
-    std::vector<CommandCall> commands;  ///< set it up from a blank document
-    std::vector<std::string> words;     ///< names that exist here, for commands that take any text
-    int ticks = 120;                    ///< ticks to run before its state is compared
-};
-
 /// A kind of file that a lab reads, as a row of Lab::files().
 struct FileKind {
     std::string plural;                ///< "characters"
@@ -259,8 +250,6 @@ class Lab {
     virtual std::string code(const Workspace&) const { return {}; }
     /// The JSON that --state writes, without handles and camera: save() by default.
     virtual Json state(const Workspace& workspace) const;
-
-    virtual std::vector<TestScene> test_scenes() const { return {}; }
 };
 
 }  // namespace tendril::app

@@ -1,9 +1,12 @@
 // Matching nodes to bones: by common names, by shape alone, and incomplete where bones are missing.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "humanoid_figure.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -13,8 +16,8 @@ using Naming = std::map<std::string, std::string>;
 /// A naming convention: the words for the sides, and the names in the order of `keys`, with $ for the side.
 /// An empty name omits the bone.
 struct NamingConvention {
-    const char *tool, *left, *right, *pattern;
-    double confidence = 0.9;  ///< minimum for every bone; shape alone gives 0.6
+    std::string tool, left, right, pattern;
+    double confidence;  ///< minimum for every bone; shape alone gives 0.6
 
     Naming names() const {
         constexpr const char* keys[]{
@@ -36,121 +39,17 @@ struct NamingConvention {
         return names;
     }
 };
-constexpr NamingConvention conventions[]{
-    {"Mixamo", "Left", "Right",
-     "mixamorig:Hips|mixamorig:Spine|mixamorig:Spine1|mixamorig:Spine2|mixamorig:Neck|mixamorig:Head|"
-     "mixamorig:HeadTop_End|mixamorig:$Shoulder|mixamorig:$Arm|mixamorig:$ForeArm|mixamorig:$Hand|"
-     "mixamorig:$HandMiddle1|mixamorig:$UpLeg|mixamorig:$Leg|mixamorig:$Foot|mixamorig:$ToeBase|"
-     "mixamorig:$Toe_End"},
-    {"Unreal", "l", "r",
-     "pelvis|spine_01|spine_02|spine_03|neck_01|head|head_leaf|clavicle_$|upperarm_$|lowerarm_$|hand_$|"
-     "middle_01_$|thigh_$|calf_$|foot_$|ball_$|ball_leaf_$"},
-    {"VRoid", "L", "R",
-     "J_Bip_C_Hips|J_Bip_C_Spine|J_Bip_C_Chest|J_Bip_C_UpperChest|J_Bip_C_Neck|J_Bip_C_Head|J_Sec_Hair1|"
-     "J_Bip_$_Shoulder|J_Bip_$_UpperArm|J_Bip_$_LowerArm|J_Bip_$_Hand|J_Bip_$_Middle1|J_Bip_$_UpperLeg|"
-     "J_Bip_$_LowerLeg|J_Bip_$_Foot|J_Bip_$_ToeBase|J_Bip_$_ToeBase_end"},
-    {"Rigify", "L", "R",
-     "DEF-hips|DEF-spine.001|DEF-spine.002|DEF-spine.003|DEF-neck|DEF-head|DEF-head.tip|DEF-shoulder.$|"
-     "DEF-upper_arm.$|DEF-forearm.$|DEF-hand.$|DEF-f_middle.01.$|DEF-thigh.$|DEF-shin.$|DEF-foot.$|DEF-toe.$|"
-     "DEF-toe_tip.$"},
-    {"Character Studio", "L", "R",
-     "Bip01 Pelvis|Bip01 Spine|Bip01 Spine1|Bip01 Spine2|Bip01 Neck|Bip01 Head|Bip01 HeadNub|"
-     "Bip01 $ Clavicle|Bip01 $ UpperArm|Bip01 $ Forearm|Bip01 $ Hand|Bip01 $ Finger1|Bip01 $ Thigh|"
-     "Bip01 $ Calf|Bip01 $ Foot|Bip01 $ Toe0|Bip01 $ Toe0Nub"},
-    {"Source engine", "L", "R",
-     "ValveBiped.Bip01_Pelvis|ValveBiped.Bip01_Spine|ValveBiped.Bip01_Spine1|ValveBiped.Bip01_Spine2|"
-     "ValveBiped.Bip01_Neck1|ValveBiped.Bip01_Head1|ValveBiped.forward|ValveBiped.Bip01_$_Clavicle|"
-     "ValveBiped.Bip01_$_UpperArm|ValveBiped.Bip01_$_Forearm|ValveBiped.Bip01_$_Hand|"
-     "ValveBiped.Bip01_$_Finger1|ValveBiped.Bip01_$_Thigh|ValveBiped.Bip01_$_Calf|ValveBiped.Bip01_$_Foot|"
-     "ValveBiped.Bip01_$_Toe0|end.$"},
-    {"Biovision", "Left", "Right",
-     "Hips|Chest|Chest2|Chest3|Neck|Head|End Site|$Collar|$Shoulder|$Elbow|$Wrist|$Wrist end|$Hip|$Knee|"
-     "$Ankle|$Toe|$Toe end"},
-    {"Poser", "l", "r",
-     "hip|abdomen|waist|chest|neck|head|leftEye|$Collar|$Shldr|$ForeArm|$Hand|$Mid1|$Thigh|$Shin|$Foot|$Toe|"
-     "$Toe_end"},
-    {"small letters", "left", "right",
-     "hips|spine|chest|upperchest|neck|head|head_end|$shoulder|$arm|$forearm|$hand|$fingers|$upleg|$leg|"
-     "$foot|$toes|$toes_end"},
-    {"Acclaim", "l", "r",
-     "hips|lowerback|upperback|thorax|lowerneck|head|head end|$clavicle|$humerus|$radius|$hand|$fingers|"
-     "$femur|$tibia|$foot|$toes|$toes end"},
-    {"Acclaim, converted", "l", "r",
-     "hips|lowerback|upperback|thorax|neck|head|head end|$shoulderjoint|$humerus|$radius|$hand|$thumb|"
-     "$femur|$tibia|$foot|$toes|$toes end"},
-    {"CMU", "Left", "Right",
-     "Hips|LowerBack|Spine|Spine1|Neck1|Head|End|$Shoulder|$Arm|$ForeArm|$Hand|$HandIndex1|$UpLeg|$Leg|$Foot|"
-     "$ToeBase|$ToeBase end"},
-    {"Motive", "L", "R",
-     "Hip|Ab|Chest||Neck|Head|Head end|$Shoulder|$UArm|$FArm|$Hand|$Hand end|$Thigh|$Shin|$Foot|$Toe|$Toe "
-     "end"},
-    {"Motive, with the asset's name", "L", "R",
-     "Bob_Hip|Bob_Ab|Bob_Chest||Bob_Neck|Bob_Head|Bob_Head end|Bob_$Shoulder|Bob_$UArm|Bob_$FArm|Bob_$Hand|"
-     "Bob_$Hand end|Bob_$Thigh|Bob_$Shin|Bob_$Foot|Bob_$Toe|Bob_$Toe end"},
-    {"Xsens", "Left", "Right",
-     "Pelvis|L5|L3|T8|Neck|Head|Head end|$Shoulder|$UpperArm|$ForeArm|$Hand|$Hand end|$UpperLeg|$LowerLeg|"
-     "$Foot|$Toe|$Toe end"},
-    {"Rokoko", "Left", "Right",
-     "Hips|Spine1|Spine2|Spine3|Neck|Head|Head end|$Shoulder|$Arm|$ForeArm|$Hand|$Finger1Proximal|$Thigh|"
-     "$Shin|$Foot|$Toe|$ToeTip"},
-    {"Perception Neuron", "Left", "Right",
-     "Robot_Hips|Robot_Spine|Robot_Spine1|Robot_Spine2|Robot_Neck|Robot_Head|Robot_Head end|Robot_$Shoulder|"
-     "Robot_$Arm|Robot_$ForeArm|Robot_$Hand|Robot_$InHandMiddle|Robot_$UpLeg|Robot_$Leg|Robot_$Foot|"
-     "Robot_$Toe|Robot_$Toe end"},
-    {"Vicon", "Left", "Right",
-     "Pelvis|Lumbar|Thorax||Neck|Head|Head end|$Clavicle|$Humerus|$Radius|$Hand|$Hand "
-     "end|$Femur|$Tibia|$Foot|"
-     "$Toes|$Toes end"},
-    {"Unity", "Left", "Right",
-     "Hips|Spine|Chest|Upper Chest|Neck|Head|Jaw|$ Shoulder|$ Upper Arm|$ Lower Arm|$ Hand|"
-     "$ Middle Proximal|$ Upper Leg|$ Lower Leg|$ Foot|$ Toes|$ Toes end"},
-    {"MotionBuilder", "Left", "Right",
-     "Character1_Hips|Character1_Spine|Character1_Spine1|Character1_Spine2|Character1_Neck|Character1_Head|"
-     "Character1_Head end|Character1_$Shoulder|Character1_$Arm|Character1_$ForeArm|Character1_$Hand|"
-     "Character1_$HandMiddle1|Character1_$UpLeg|Character1_$Leg|Character1_$Foot|Character1_$ToeBase|"
-     "Character1_$FootMiddle1"},
-    {"Auto-Rig", "l", "r",
-     "root.x|spine_01.x|spine_02.x|spine_03.x|neck.x|head.x|head_end|shoulder.$|arm_stretch.$|"
-     "forearm_stretch.$|hand.$|c_middle1.$|thigh_stretch.$|leg_stretch.$|foot.$|toes_01.$|toes_end.$",
-     0.6},
-    {"DAZ Genesis 8", "l", "r",
-     "hip|abdomenLower|abdomenUpper|chestLower|neckLower|head|tongue|$Collar|$ShldrBend|$ForearmBend|$Hand|"
-     "$Mid1|$ThighBend|$Shin|$Foot|$Toe|$BigToe"},
-    {"DAZ Genesis 9", "l", "r",
-     "hip|spine1|spine2|spine3|neck1|head|tongue01|$_shoulder|$_upperarm|$_forearm|$_hand|$_mid1|$_thigh|"
-     "$_shin|$_foot|$_toes|$_bigtoe1"},
-    {"SMPL", "L", "R",
-     "m_avg_Pelvis|m_avg_Spine1|m_avg_Spine2|m_avg_Spine3|m_avg_Neck|m_avg_Head|m_avg_Head end|"
-     "m_avg_$_Collar|m_avg_$_Shoulder|m_avg_$_Elbow|m_avg_$_Wrist|m_avg_$_Hand|m_avg_$_Hip|m_avg_$_Knee|"
-     "m_avg_$_Ankle|m_avg_$_Foot|m_avg_$_Foot end",
-     0.6},
-    {"Reallusion", "L", "R",
-     "CC_Base_Hip|CC_Base_Waist|CC_Base_Spine01|CC_Base_Spine02|CC_Base_NeckTwist01|CC_Base_Head|"
-     "CC_Base_FacialBone|CC_Base_$_Clavicle|CC_Base_$_Upperarm|CC_Base_$_Forearm|CC_Base_$_Hand|"
-     "CC_Base_$_Mid1|CC_Base_$_Thigh|CC_Base_$_Calf|CC_Base_$_Foot|CC_Base_$_ToeBase|CC_Base_$_BigToe1",
-     0.6},
-    {"MakeHuman", "L", "R",
-     "root|spine05|spine03|spine01|neck01|head|jaw|clavicle.$|upperarm01.$|lowerarm01.$|wrist.$|"
-     "finger3-1.$|upperleg01.$|lowerleg01.$|foot.$|toe1-1.$|toe1-2.$",
-     0.6},
-    {"Advanced Skeleton", "L", "R",
-     "Root_M|Spine1_M|Spine2_M|Chest_M|Neck_M|Head_M|HeadEnd_M|Scapula_$|Shoulder_$|Elbow_$|Wrist_$|"
-     "MiddleFinger1_$|Hip_$|Knee_$|Ankle_$|Toes_$|ToesEnd_$",
-     0.6},
-    {"Kinect", "Left", "Right",
-     "PELVIS|SPINE_NAVEL|SPINE_CHEST||NECK|HEAD|NOSE|CLAVICLE_$|SHOULDER_$|ELBOW_$|WRIST_$|HANDTIP_$|HIP_$|"
-     "KNEE_$|ANKLE_$|FOOT_$|FOOT_$ end",
-     0.6},
-    {"Roblox", "Left", "Right",
-     "LowerTorso|UpperTorso|||Neck|Head|Head end||$UpperArm|$LowerArm|$Hand|$Hand end|$UpperLeg|$LowerLeg|"
-     "$Foot||$Foot end",
-     0.6},
-    {"MikuMikuDance", "左", "右",
-     "センター|上半身|上半身2||首|頭|両目|$肩|$腕|$ひじ|$手首|$中指１|$足|$ひざ|$足首|$つま先|$足先EX"},
-    {"Maya, lf and rt", "lf", "rt",
-     "pelvis_jnt|spine_01_jnt|spine_02_jnt|spine_03_jnt|neck_jnt|head_jnt|head_end|$_clavicle_jnt|"
-     "$_shoulder_jnt|$_elbow_jnt|$_wrist_jnt|$_middle_01_jnt|$_leg_jnt|$_knee_jnt|$_ankle_jnt|$_ball_jnt|"
-     "$_toe_end"}};
+const std::vector<NamingConvention>& conventions() {
+    static const auto all = [] {
+        std::ifstream file(source_path("tests/core/naming_conventions.json"));
+        std::vector<NamingConvention> read;
+        for (const auto& each : nlohmann::json::parse(file))
+            read.push_back({each.at("tool"), each.at("left"), each.at("right"), each.at("pattern"),
+                            each.value("confidence", 0.9)});
+        return read;
+    }();
+    return all;
+}
 
 /// Checks that every bone's node has the expected name.
 void expect_names(const Skeleton& skeleton, const BoneMap& map, const Naming& names, double confidence) {
@@ -169,7 +68,7 @@ void expect_names(const Skeleton& skeleton, const BoneMap& map, const Naming& na
 }
 
 TEST(BoneMap, RecognisesEveryNamingConvention) {
-    for (const NamingConvention& convention : conventions) {
+    for (const NamingConvention& convention : conventions()) {
         SCOPED_TRACE(convention.tool);
         const Skeleton skeleton = make_figure(convention.names());
         const BoneMap map = match_bones(skeleton);
@@ -180,8 +79,8 @@ TEST(BoneMap, RecognisesEveryNamingConvention) {
 
 TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
     const NamingConvention& convention =
-        *std::find_if(std::begin(conventions), std::end(conventions),
-                      [](const NamingConvention& each) { return each.tool == std::string("MakeHuman"); });
+        *std::find_if(conventions().begin(), conventions().end(),
+                      [](const NamingConvention& each) { return each.tool == "MakeHuman"; });
     const Naming names = convention.names();
     const Skeleton whole = make_figure(names);
     std::vector<Node> nodes(whole.nodes().begin(), whole.nodes().end());
@@ -205,9 +104,9 @@ TEST(BoneMap, AMirroredFigureHasAMirroredMap) {
     std::mt19937 random(9);
     int count = 0;
     for (int round = 0; round < 2000; ++round) {
-        const NamingConvention& convention = conventions[random() % std::size(conventions)];
+        const NamingConvention& convention = conventions()[random() % conventions().size()];
         SCOPED_TRACE(convention.tool + (", " + std::to_string(round)));
-        Naming names = convention.names(), others = conventions[random() % std::size(conventions)].names();
+        Naming names = convention.names(), others = conventions()[random() % conventions().size()].names();
         for (auto& [key, text] : names) {
             if (text.empty() || !key.starts_with("Left") || random() % 4 > 0) continue;
             const std::string& other = others[key];
@@ -342,7 +241,7 @@ TEST(BoneMap, AnySkeletonGivesAValidMap) {
         for (std::size_t i = 0; i < count; ++i) {
             std::string label = "n" + std::to_string(i);
             if (random() % 2) {
-                const Naming names = conventions[random() % std::size(conventions)].names();
+                const Naming names = conventions()[random() % conventions().size()].names();
                 label = std::next(names.begin(), static_cast<long>(random() % names.size()))->second + label;
             }
             Node node{label, i == 0 ? -1 : static_cast<std::int32_t>(random() % i), {}};

@@ -1,13 +1,14 @@
 // A scene is refused with a std::runtime_error and changes nothing, or is loaded completely: it saves and
 // loads unchanged, and its labs can show it and advance it.
 //
-// Starts with the labs' own scenes (Lab::test_scenes) that are small enough.
+// Starts with the labs' own scenes (tests/app/data/test_scenes.json) that are small enough.
 #include <fstream>
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/labs.hpp"
+#include "tests/app/support/full_scenes.hpp"
 #include "tests/fuzz/check.hpp"
 
 using namespace tendril::app;
@@ -50,7 +51,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     if (folder.empty()) return 0;
     const Fixture& with = fixture();
     for (const auto& lab : with.labs.all())
-        for (const TestScene& scene : lab->test_scenes()) {
+        for (const tendril::test::TestScene& scene : tendril::test::test_scenes(*lab)) {
             Workspace workspace = with.blank;
             workspace.document.set(lab->name(), lab->blank());
             for (const CommandCall& command : scene.commands)

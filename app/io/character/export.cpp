@@ -13,7 +13,6 @@
 #include "app/document/units.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/gltf_write.hpp"
 #include "app/io/character/read.hpp"
 
 namespace tendril::app {
@@ -59,12 +58,13 @@ class Comparison {
   public:
     Comparison(const Export& what, const Character& read, bool is_bvh, bool has_origin)
         : what_(what),
+          dressed_(what.worn.dressed(what.character.skeleton)),
           read_(read),
-          places_(places_of(humanoid::detached(what.character.skeleton), read.skeleton, is_bvh)),
+          places_(places_of(humanoid::detached(dressed_), read.skeleton, is_bvh)),
           ratio_(has_origin ? what.character.scale : 1.0),
           turn_(turn_of(has_origin ? what.character.space.up : UpAxis::Y)) {}
     void at(double time, double read_time, ExportReport& report) {
-        const Skeleton& skeleton = what_.character.skeleton;
+        const Skeleton& skeleton = dressed_;
         pose(what_.corrected, skeleton, time, wanted_);
         pose(clip(), read_.skeleton, read_time, found_);
         for (std::size_t i = 0; i < skeleton.size(); ++i) {
@@ -91,6 +91,7 @@ class Comparison {
     }
 
     const Export& what_;
+    const Skeleton dressed_;
     const Character& read_;
     std::vector<std::size_t> places_;
     double ratio_;     ///< metres per unit of the character read back
@@ -121,9 +122,10 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     }
     const Skeleton& skeleton = what.character.skeleton;
     const humanoid::BoneMap map = bone_map(what.character);
+    humanoid::Clip bare = what.corrected;
+    std::erase_if(bare.channels, [&](const humanoid::Channel& each) { return each.node >= skeleton.size(); });
     const humanoid::LintReport before = lint(skeleton, map, what.original, {.rate = what.rate}),
-                               after = lint(skeleton, map, what.corrected,
-                                            {.rate = what.rate, .ground = what.ground});
+                               after = lint(skeleton, map, bare, {.rate = what.rate, .ground = what.ground});
     report.rate = what.rate;
     if (has_origin) report.unit = what.character.scale;
     report.on_ground = what.ground != nullptr && what.ground->kind() != humanoid::GroundKind::Flat;
@@ -234,10 +236,10 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
         const bool is_bvh = ending == ".bvh";
         const GltfOrigin origin = is_bvh ? GltfOrigin() : origin_of(what.file);
         Character written = what.character;
-        written.skeleton = humanoid::detached(what.character.skeleton);
+        written.skeleton = humanoid::detached(what.worn.dressed(what.character.skeleton));
         const std::string bytes =
             is_bvh ? bvh_text(written.skeleton, what.corrected, what.rate)
-                   : gltf_bytes(written, what.corrected, what.rate, origin, ending == ".glb");
+                   : gltf_bytes(written, what.corrected, what.rate, origin, ending == ".glb", what.worn);
         const Character read = is_bvh ? parse_bvh(bytes, name) : parse_gltf(bytes, name, {});
         const ExportReport report = report_of(what, read, is_bvh, !origin.bytes.empty());
         outputs.write(path, OutputKind::Motion, bytes);

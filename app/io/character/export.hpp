@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/document/outputs.hpp"
-#include "app/io/character/character.hpp"
+#include "app/io/character/gltf_write.hpp"
 
 namespace tendril::app {
 
@@ -41,6 +41,7 @@ struct Export {
     const humanoid::Clip& corrected;           ///< the clip to write
     double rate = 60.0;                        ///< frames per second
     const humanoid::Ground* ground = nullptr;  ///< the ground under its feet, for the lint
+    Worn worn{};                               ///< its nodes are in `corrected`; glTF only
     Outputs* outputs = nullptr;  ///< decides which existing files are replaced; null: any glTF, GLB or BVH
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -54,8 +55,34 @@ void put(std::vector<float>& numbers, const glm::dquat& value) {
         numbers.push_back(static_cast<float>(each));
 }
 
+void put(std::vector<float>& numbers, const humanoid::Placement& value) {
+    for (int i = 0; i < 4; ++i) {
+        put(numbers, i < 3 ? value.axes[i] : value.position);
+        numbers.push_back(i < 3 ? 0.0f : 1.0f);
+    }
+}
+
 Json array_of(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
+}
+
+/// A part's colour in linear light, as glTF has it.
+Json linear_colour(const glm::vec4& shown) {
+    Json colour = Json::array();
+    for (int i = 0; i < 3; ++i)
+        colour.push_back(shown[i] <= 0.04045f ? shown[i] / 12.92f
+                                              : std::pow((shown[i] + 0.055f) / 1.055f, 2.4f));
+    colour.push_back(shown[3]);
+    return colour;
+}
+
+/// Returns its index.
+std::size_t add_material(const glm::vec4& colour, GltfFile& file) {
+    Json& all = file.json["materials"];
+    all.push_back(
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", linear_colour(colour)}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}}});
+    return all.size() - 1;
 }
 
 /// Replaces a node's matrix by translation, rotation and scale, which glTF requires of animated nodes.
@@ -64,6 +91,68 @@ void set_transform(Json& node, const rig::Transform& local) {
     node["translation"] = array_of(local.translation);
     node["rotation"] = Json::array({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w});
     node["scale"] = array_of(local.scale);
+}
+
+/// The meshes of what is worn; their joints are at rest in the skeleton, which has `unit` metres per unit of
+/// the file. `nodes`: each node's index in the file.
+void add_worn(const Worn& worn, const humanoid::Skeleton& skeleton, const std::vector<std::size_t>& nodes,
+              double unit, GltfFile& file) {
+    std::vector<humanoid::Placement> placed(skeleton.size());
+    place(skeleton, rest_pose(skeleton), placed);
+    for (const WornMesh& mesh : worn.meshes) {
+        std::vector<std::size_t> joints;
+        std::vector<glm::dvec3> points, normals(mesh.corners.size());
+        std::vector<std::uint16_t> joint_of;
+        const bool rigid = std::ranges::all_of(mesh.corners, [&](const WornMesh::Corner& each) {
+            return each.node == mesh.corners.front().node;
+        });
+        for (const WornMesh::Corner& each : mesh.corners) {
+            const auto known = std::ranges::find(joints, each.node);
+            joint_of.insert(joint_of.end(), {static_cast<std::uint16_t>(known - joints.begin()), 0, 0, 0});
+            if (known == joints.end()) joints.push_back(each.node);
+            points.push_back((rigid ? each.at : placed[each.node].apply(each.at)) / unit);
+        }
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const std::uint32_t* const k = &mesh.indices[i];
+            const glm::dvec3 across = glm::cross(points[k[1]] - points[k[0]], points[k[2]] - points[k[0]]);
+            for (int c = 0; c < 3; ++c) normals[k[c]] += across;
+        }
+        std::vector<float> at, out, weights, binds;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double size = glm::length(normals[i]);
+            put(at, points[i]), put(out, size > 0.0 ? normals[i] / size : glm::dvec3(0.0, 1.0, 0.0));
+            weights.insert(weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+        }
+        Json attributes{{"POSITION", file.add_positions(at)}, {"NORMAL", file.add_rows("VEC3", out)}};
+        Json skin{{"joints", Json::array()}};
+        for (const std::size_t joint : joints) {
+            skin["joints"].push_back(nodes[joint]);
+            const glm::dmat3 back = glm::inverse(placed[joint].axes);
+            put(binds, humanoid::Placement{back, -(back * placed[joint].position) / unit});
+        }
+        if (!rigid) {
+            attributes["JOINTS_0"] = file.add_joints(joint_of);
+            attributes["WEIGHTS_0"] = file.add_rows("VEC4", weights);
+            skin["inverseBindMatrices"] = file.add_rows("MAT4", binds);
+        }
+        const std::size_t material = add_material(mesh.colour, file);
+        file.json["materials"][material]["doubleSided"] = true;
+        Json& meshes = file.json["meshes"];
+        meshes.push_back({{"name", mesh.name},
+                          {"primitives", Json::array({{{"attributes", attributes},
+                                                       {"indices", file.add_indices(mesh.indices)},
+                                                       {"material", material}}})}});
+        Json& all = file.json["nodes"];
+        if (rigid) {
+            all[nodes[joints.front()]]["mesh"] = meshes.size() - 1;
+            continue;
+        }
+        if (file.json.contains("scenes"))
+            file.json["scenes"][file.json.value("scene", std::size_t{0})]["nodes"].push_back(all.size());
+        Json& skins = file.json["skins"];
+        all.push_back({{"name", mesh.name + " mesh"}, {"mesh", meshes.size() - 1}, {"skin", skins.size()}});
+        skins.push_back(std::move(skin));
+    }
 }
 
 class Animation {
@@ -139,6 +228,13 @@ void keep_weights(const Json& animations, std::size_t index, Animation& into) {
     }
 }
 
+/// Keys a node that does not move.
+void add_rest(const Character& character, std::size_t place, std::size_t node, Animation& into) {
+    Channel rest{.node = place};
+    rest.rotation = {Interpolation::Linear, {0.0}, {character.skeleton[place].rest.rotation}};
+    into.add(rest, node, 1.0);
+}
+
 /// Nodes are in the skeleton because they are joints or animated. A node that only other animations moved
 /// gets a key of its rest pose, so that it stays in the skeleton.
 void keep_animated(const Json& animations, const Character& character, const std::vector<std::size_t>& nodes,
@@ -150,15 +246,13 @@ void keep_animated(const Json& animations, const Character& character, const std
             const auto node = target["node"].get<std::size_t>();
             const auto place = std::find(nodes.begin(), nodes.end(), node);
             if (place == nodes.end() || !animated.insert(node).second) continue;
-            Channel rest{.node = static_cast<std::size_t>(place - nodes.begin())};
-            rest.rotation = {Interpolation::Linear, {0.0}, {character.skeleton[rest.node].rest.rotation}};
-            into.add(rest, node, 1.0);
+            add_rest(character, static_cast<std::size_t>(place - nodes.begin()), node, into);
         }
     }
 }
 
 std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip, double rate,
-                        const GltfOrigin& origin, bool binary) {
+                        const GltfOrigin& origin, bool binary, const Worn& worn) {
     // The up axis may have been corrected; the file keeps its own.
     Character character = shown;
     character.clips.push_back(shown_clip);
@@ -166,10 +260,21 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
     const humanoid::Clip clip = std::move(character.clips.back());
     character.clips.pop_back();
     const tinygltf::Model model = gltf_model(origin.bytes, origin.folder);
-    const std::vector<std::size_t> nodes = gltf_nodes(model);
-    if (nodes.size() != character.skeleton.size())
+    std::vector<std::size_t> nodes = gltf_nodes(model);
+    if (nodes.size() + worn.nodes.size() != character.skeleton.size())
         throw std::runtime_error("its nodes have changed since it was loaded");
     GltfFile file(gltf_json(origin.bytes), model);
+    for (std::size_t i = nodes.size(); i < character.skeleton.size(); ++i) {
+        const humanoid::Node& each = character.skeleton[i];
+        Json& all = file.json["nodes"];
+        nodes.push_back(all.size());
+        all[nodes[static_cast<std::size_t>(each.parent)]]["children"].push_back(all.size());
+        rig::Transform rest = each.rest;
+        rest.translation /= character.scale;
+        all.push_back({{"name", each.name}});
+        set_transform(all.back(), rest);
+    }
+    add_worn(worn, character.skeleton, nodes, character.scale, file);
     const Json animations = file.json.value("animations", Json::array());
     file.json.erase("animations");
     file.normalise_weights();
@@ -187,6 +292,8 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
             set_transform(json, rest);
         }
     }
+    for (std::size_t i = nodes.size() - worn.nodes.size(); i < nodes.size(); ++i)
+        if (animated.insert(nodes[i]).second) add_rest(character, i, nodes[i], animation);
     keep_animated(animations, character, nodes, animated, animation);
     const auto same = std::find_if(character.clips.begin(), character.clips.end(),
                                    [&](const humanoid::Clip& each) { return each.name == clip.name; });
@@ -221,16 +328,6 @@ bool is_written(const Character& character) {
            std::ranges::count_if(all, [](const humanoid::Node& node) { return node.parent < 0; }) == 1;
 }
 
-/// A part's colour in linear light, as glTF has it.
-Json linear_colour(const glm::vec4& shown) {
-    Json colour = Json::array();
-    for (int i = 0; i < 3; ++i)
-        colour.push_back(shown[i] <= 0.04045f ? shown[i] / 12.92f
-                                              : std::pow((shown[i] + 0.055f) / 1.055f, 2.4f));
-    colour.push_back(shown[3]);
-    return colour;
-}
-
 /// The mesh, bound to the file's first skin, whose joints are all nodes.
 void add_mesh(const Character& character, GltfFile& file) {
     const SkinnedMesh& mesh = *character.skin.mesh;
@@ -238,16 +335,10 @@ void add_mesh(const Character& character, GltfFile& file) {
     std::vector<std::uint16_t> joint_of(character.skeleton.size());
     for (std::size_t i = 0; i < skin["joints"].size(); ++i)
         joint_of[skin["joints"][i].get<std::size_t>()] = static_cast<std::uint16_t>(i);
-    std::vector<float> binds(16 * joint_of.size(), 0.0f), positions, normals, weights;
-    for (std::size_t i = 0; i < joint_of.size(); ++i)
-        for (std::size_t k = 0; k < 4; ++k) binds[16 * i + 5 * k] = 1.0f;
-    for (const SkinJoint& each : character.skin.joints) {
-        float* const bind = &binds[16 * joint_of[each.node]];
-        for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 3; ++row)
-                bind[4 * column + row] = static_cast<float>(column < 3 ? each.from_bind.axes[column][row]
-                                                                       : each.from_bind.position[row]);
-    }
+    std::vector<humanoid::Placement> from_bind(joint_of.size());
+    for (const SkinJoint& each : character.skin.joints) from_bind[joint_of[each.node]] = each.from_bind;
+    std::vector<float> binds, positions, normals, weights;
+    for (const humanoid::Placement& each : from_bind) put(binds, each);
     std::vector<std::uint16_t> joints;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         put(positions, glm::dvec3(mesh.positions[i])), put(normals, glm::dvec3(mesh.normals[i]));
@@ -269,18 +360,15 @@ void add_mesh(const Character& character, GltfFile& file) {
         primitives.push_back(
             {{"attributes", attributes},
              {"indices", file.add_indices({first, first + static_cast<std::ptrdiff_t>(part.count)})},
-             {"material", primitives.size()}});
-        file.json["materials"].push_back({{"pbrMetallicRoughness",
-                                           {{"baseColorFactor", linear_colour(part.colour)},
-                                            {"metallicFactor", 0.0},
-                                            {"roughnessFactor", 0.7}}}});
+             {"material", add_material(part.colour, file)}});
     }
     file.json["meshes"] = Json::array({{{"name", "body"}, {"primitives", std::move(primitives)}}});
     file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
     file.json["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
 }
 
-std::string on_its_own(const Character& character, const humanoid::Clip& clip, double rate, bool binary) {
+std::string on_its_own(const Character& character, const humanoid::Clip& clip, double rate, bool binary,
+                       const Worn& worn) {
     const humanoid::Skeleton& skeleton = character.skeleton;
     GltfFile file;
     Json nodes = Json::array(), roots = Json::array();
@@ -296,6 +384,9 @@ std::string on_its_own(const Character& character, const humanoid::Clip& clip, d
     file.json["nodes"] = std::move(nodes);
     add_skins(skeleton, file);
     if (is_written(character)) add_mesh(character, file);
+    std::vector<std::size_t> indices(skeleton.size());
+    std::iota(indices.begin(), indices.end(), std::size_t{0});
+    add_worn(worn, skeleton, indices, 1.0, file);
     Animation animation(file, clip, rate);
     for (const Channel& channel : clip.channels) animation.add(channel, channel.node, 1.0);
     if (!animation.is_empty()) file.json["animations"] = Json::array({animation.json()});
@@ -305,9 +396,9 @@ std::string on_its_own(const Character& character, const humanoid::Clip& clip, d
 }  // namespace
 
 std::string gltf_bytes(const Character& character, const humanoid::Clip& clip, double rate,
-                       const GltfOrigin& origin, bool binary) {
-    return origin.bytes.empty() ? on_its_own(character, clip, rate, binary)
-                                : with_origin(character, clip, rate, origin, binary);
+                       const GltfOrigin& origin, bool binary, const Worn& worn) {
+    return origin.bytes.empty() ? on_its_own(character, clip, rate, binary, worn)
+                                : with_origin(character, clip, rate, origin, binary, worn);
 }
 
 }  // namespace tendril::app

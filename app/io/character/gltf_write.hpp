@@ -24,9 +24,35 @@ struct GltfOrigin {
     std::filesystem::path folder{};
 };
 
-/// The whole file. `rate` is frames per second; 0: no keys besides the clip's. Throws std::runtime_error if
-/// the origin cannot be read or its nodes differ from the character's.
+/// Triangles that follow nodes.
+struct WornMesh {
+    struct Corner {
+        std::size_t node = 0;  ///< index into the dressed skeleton
+        glm::dvec3 at{0.0};    ///< in the node's frame at rest, metres
+    };
+    std::string name{};
+    glm::vec4 colour{1.0f};
+    std::vector<Corner> corners{};
+    std::vector<std::uint32_t> indices{};
+};
+
+/// What a character wears and holds: further nodes, each after its parent, and their meshes. Clips move them
+/// as nodes after the character's own.
+struct Worn {
+    std::vector<humanoid::Node> nodes{};
+    std::vector<WornMesh> meshes{};
+    /// The character's nodes, then these. Throws std::runtime_error if they are too many.
+    humanoid::Skeleton dressed(const humanoid::Skeleton& bare) const {
+        std::vector<humanoid::Node> all = bare.nodes();
+        all.insert(all.end(), nodes.begin(), nodes.end());
+        return skeleton_of(std::move(all));
+    }
+};
+
+/// The whole file, of a character whose skeleton is dressed in `worn`. `rate` is frames per second; 0: no
+/// keys besides the clip's. Throws std::runtime_error if the origin cannot be read or its nodes differ from
+/// the character's.
 std::string gltf_bytes(const Character& character, const humanoid::Clip& clip, double rate,
-                       const GltfOrigin& origin, bool binary);
+                       const GltfOrigin& origin, bool binary, const Worn& worn = {});
 
 }  // namespace tendril::app

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -307,32 +306,6 @@ std::vector<CommandCall> ChainLab::opening() const {
 
 std::vector<CommandCall> ChainLab::calm() const {
     return {{"chain.motion", {{"path", "still"}}}};
-}
-
-std::vector<TestScene> ChainLab::test_scenes() const {
-    const std::vector<std::string> words{"forward", "circle", "all", "here", "fabrik"};
-    return {
-        {"selected", {{"chain.select", {{"index", 1}}}}, words},
-        {"moving", {{"chain.mode", {{"mode", "fixed"}}}, {"chain.motion", {{"path", "circle"}}}}, words},
-        {"reach",
-         {{"chain.preset", {{"name", "arm"}}},
-          {"chain.mode", {{"mode", "reach"}}},
-          {"chain.pole", {{"to", glm::vec3(0.5f, 2.0f, 0.5f)}}},
-          {"chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 120.0f}}},
-          {"chain.motion", {{"path", "figure_eight"}}}},
-         words},
-        {"curve",
-         {{"chain.preset", {{"name", "tail"}}}, {"chain.motion", {{"path", "figure_eight"}}}},
-         words},
-        {"plane",
-         {{"chain.preset", {{"name", "flat_mixed"}}}, {"chain.motion", {{"path", "circle"}}}},
-         words},
-        {"studied",
-         {{"chain.mode", {{"mode", "reach"}}},
-          {"chain.target", {{"to", glm::vec3(2.0f, 3.0f, 1.0f)}}},
-          {"microscope.open", {}}},
-         words},
-    };
 }
 
 }  // namespace tendril::app

@@ -94,7 +94,6 @@ class ChainLab final : public Lab {
     std::vector<LabSetting> settings() const override;
     std::vector<CommandCall> opening() const override;
     std::vector<CommandCall> calm() const override;
-    std::vector<TestScene> test_scenes() const override;
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };

@@ -391,12 +391,16 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     for (LegendRow& row : limits_legend(workspace)) rows.push_back(std::move(row));
     const std::vector<bool> body = body_nodes(part);
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
-    if (shown.feet) rows.push_back({.name = "planted", .colour = colours.tail, .handle = true});
+    if (shown.feet || shown.hold)
+        rows.push_back({.name = !shown.hold   ? "planted"
+                                : !shown.feet ? "closed grip"
+                                              : "planted, closed grip",
+                        .colour = colours.tail,
+                        .handle = true});
     if (shown.balance) rows.push_back({"centre of mass", balance_colour(part, shown, colours)});
     if (!part.curves.empty()) rows.push_back({"curve", curve_colour(colours)});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
-    if (shown.hold) rows.push_back({"closed grip", colours.tail});
     if (part.view.ghost && (part.shows_fixes() || !shown.ghost.empty()))
         rows.push_back({"before", colours.ghost});
     add_ghost_legend(workspace, humanoid_past(), rows);

@@ -56,7 +56,6 @@ class HumanoidLab final : public Lab {
     Json state(const Workspace& workspace) const override;
     std::string code(const Workspace& workspace) const override;
     std::vector<CommandCall> opening() const override;
-    std::vector<TestScene> test_scenes() const override;
 };
 
 /// Bones drawn tapered, or as lines and spheres; nodes that are not bones: shown or hidden.

@@ -226,25 +226,6 @@ std::vector<CommandCall> LinkageLab::calm() const {
     return {{"linkage.release", {{"joint", "crank"}}}};
 }
 
-std::vector<TestScene> LinkageLab::test_scenes() const {
-    const std::vector<std::string> words{"crank", "motor", "A", "B", "C", "P", "S", "platform", "AB"};
-    std::vector<TestScene> scenes{
-        {"motor", {{"linkage.motor", {{"joint", "crank"}}}}, words},
-        {"drawn",
-         {{"linkage.clear", {}},
-          {"linkage.joint", {{"at", glm::vec3(0.0f)}}},
-          {"linkage.pin", {{"point", "A"}}},
-          {"linkage.bar", {{"from", "A"}, {"to", SharedJson(Json{1, 1, 0})}}},
-          {"linkage.bar", {{"from", SharedJson(Json{3, 0, 0})}, {"to", SharedJson(Json{4, 1, 0})}}},
-          {"linkage.motor.add", {{"point", "A"}}},
-          {"linkage.motor", {{"joint", "motor 1"}}}},
-         words},
-        {"empty", {{"linkage.clear", {}}}, words}};
-    for (const char* name : {"slider_crank", "walker", "stewart"})
-        scenes.push_back({name, {{"linkage.preset", {{"name", name}}}}, words});
-    return scenes;
-}
-
 std::string LinkageLab::code(const Workspace& workspace) const {
     return linkage_code(linkage_part(workspace));
 }

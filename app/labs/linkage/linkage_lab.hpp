@@ -58,7 +58,6 @@ class LinkageLab final : public Lab {
     std::vector<MouseHelp> mouse_help() const override;
     std::vector<CommandCall> opening() const override;
     std::vector<CommandCall> calm() const override;
-    std::vector<TestScene> test_scenes() const override;
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };

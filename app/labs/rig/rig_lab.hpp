@@ -58,7 +58,6 @@ class RigLab final : public Lab {
     Json state(const Workspace& workspace) const override;
     std::vector<CommandCall> opening() const override;
     std::vector<CommandCall> calm() const override;
-    std::vector<TestScene> test_scenes() const override;
 };
 
 }  // namespace tendril::app

@@ -163,25 +163,6 @@ std::vector<CommandCall> RopeLab::calm() const {
     return {{"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.0f)}}}};
 }
 
-std::vector<TestScene> RopeLab::test_scenes() const {
-    const std::vector<std::string> words{"rope", "rope 2", "short 1", "cloth",
-                                         "hair", "ball",   "bar",     "ground"};
-    std::vector<TestScene> scenes{
-        {"selected", {{"rope.select", {{"collider", "ball"}}}}, words},
-        {"small",
-         {{"rope.clear", {}},
-          {"rope.add",
-           {{"from", glm::vec3(0, 1, 0)}, {"to", glm::vec3(1, 1, 0)}, {"segments", 3}, {"pin_start", true}}},
-          {"rope.collider.add",
-           {{"name", "ball"}, {"kind", "sphere"}, {"centre", glm::vec3(0.5f, 0.8f, 0)}, {"radius", 0.1f}}},
-          {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.2f, 0, 0)}}}},
-         words}};
-    scenes.push_back({"race", {{"rope.preset", {{"name", "line"}}}, {"rope.race", {}}}, words});
-    for (const RopeSceneEntry& scene : rope_scenes())
-        scenes.push_back({scene.name, {{"rope.preset", {{"name", scene.name}}}}, words});
-    return scenes;
-}
-
 Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     const RopePart& part = rope_part(workspace);
     if (selection_only) {

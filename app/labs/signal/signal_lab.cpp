@@ -175,24 +175,6 @@ Json SignalLab::state(const Workspace& workspace) const {
                 {"fitting", part.fitting.has_value()}};
 }
 
-std::vector<TestScene> SignalLab::test_scenes() const {
-    const std::vector<std::string> words{"hand", "square", "sine", "noise", "/no/such/samples.csv"};
-    std::vector<TestScene> scenes{{"hand",
-                                   {{"signal.filter.add", {{"kind", "moving_average"}, {"window", 0.2f}}},
-                                    {"signal.hand", {{"value", 0.5f}}}},
-                                   words},
-                                  {"selected", {{"signal.select", {{"at", 0}}}}, words},
-                                  {"empty", {{"signal.clear", {}}}, words},
-                                  {"recording",
-                                   {{"signal.input", {{"kind", "square"}, {"period", 0.5f}}},
-                                    {"signal.fit.record", {}},
-                                    {"signal.fit.hand", {{"value", 0.25f}}}},
-                                   words}};
-    for (const SignalPreset& preset : signal_presets())
-        scenes.push_back({preset.name, {{"signal.preset", {{"name", preset.name}}}}, words});
-    return scenes;
-}
-
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
     if (enabled_filters(part).empty())
         return {"No filter is on", Verdict::Kind::Open, "The output is the input."};

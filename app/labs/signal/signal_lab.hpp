@@ -49,7 +49,6 @@ class SignalLab final : public Lab {
 
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
-    std::vector<TestScene> test_scenes() const override;
 };
 
 }  // namespace tendril::app

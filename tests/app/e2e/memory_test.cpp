@@ -4,6 +4,7 @@
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/full_scenes.hpp"
 
 namespace tendril::test {
 namespace {
@@ -59,7 +60,7 @@ TEST(Memory, OfRandomCommandsInEveryLabIsCounted) {
     const std::size_t before = heap_bytes();
     unsigned seed = 0;
     for (const auto& lab : app.labs().all()) {
-        const TestScene scene = lab->test_scenes().back();
+        const TestScene scene = test_scenes(*lab).back();
         app.run({"lab.open", Json{{"name", lab->name()}}});
         for (const CommandCall& command : scene.commands) app.run({command.name, to_json(command.arguments)});
         CommandTable table;

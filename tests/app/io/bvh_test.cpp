@@ -1,10 +1,10 @@
 // BVH files as programs write them: loose spellings and damage.
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <string>
 
 #include "app/io/character/bvh.hpp"
+#include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app::bvh_spelling {

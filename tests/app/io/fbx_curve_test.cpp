@@ -10,6 +10,7 @@
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -282,100 +283,12 @@ TEST(FbxCurve, UnevaluatedContentsAreReportedOnce) {
 
 // ------------------------------------------------------------------------------------------- version 6.1
 
-const std::string old_text = R"(; FBX 6.1.0 project file
-FBXHeaderExtension:  {
-    FBXHeaderVersion: 1003
-    FBXVersion: 6100
+std::string old_text() {
+    return test::read(test::source_path("tests/app/data/version_6.fbx"));
 }
-Definitions:  {
-    Version: 100
-}
-Objects:  {
-    Model: "Model::Hips", "LimbNode" {
-        Version: 232
-        Properties60:  {
-            Property: "RotationActive", "bool", "",1
-            Property: "RotationOrder", "enum", "",5
-            Property: "Lcl Translation", "Lcl Translation", "A+",0,1,0
-            Property: "Lcl Rotation", "Lcl Rotation", "A+",0,0,90
-            Property: "Lcl Scaling", "Lcl Scaling", "A+",1,1,1
-        }
-    }
-    Model: "Model::Knee", "LimbNode" {
-        Properties60:  {
-            Property: "Lcl Translation", "Lcl Translation", "A+",0.5,0,0
-        }
-    }
-    Model: "Model::Body", "Mesh" {
-        Vertices: 0,1,0,0,1.5,0
-        ,0.5,1,0
-        PolygonVertexIndex: 0,1,-3
-    }
-    Deformer: "Deformer::Skin Body", "Skin" {
-    }
-    Deformer: "SubDeformer::Cluster Knee", "Cluster" {
-        Indexes: 0,1,2
-        Weights: 1,1,1
-        Transform: 1,0,0,0,0,1,0,0,0,0,1,0,0,-1.5,0,1
-    }
-    GlobalSettings:  {
-        Properties60:  {
-            Property: "UpAxis", "int", "",1
-            Property: "UnitScaleFactor", "double", "",100
-        }
-    }
-}
-Connections:  {
-    Connect: "OO", "Model::Hips", "Model::Scene"
-    Connect: "OO", "Model::Knee", "Model::Hips"
-    Connect: "OO", "Model::Body", "Model::Scene"
-    Connect: "OO", "Deformer::Skin Body", "Model::Body"
-    Connect: "OO", "SubDeformer::Cluster Knee", "Deformer::Skin Body"
-    Connect: "OO", "Model::Knee", "SubDeformer::Cluster Knee"
-}
-Takes:  {
-    Current: "Walk"
-    Take: "Walk" {
-        FileName: "Walk.tak"
-        LocalTime: 0,92372316000
-        Model: "Model::Hips" {
-            Version: 1.1
-            Channel: "Transform" {
-                Channel: "T" {
-                    Channel: "X" {
-                        Default: 0
-                        KeyVer: 4005
-                        KeyCount: 2
-                        Key: 0,0,C,s,46186158000,1,L
-                    }
-                    Channel: "Y" {
-                        Default: 1
-                    }
-                    Channel: "Z" {
-                        Default: 0
-                        KeyVer: 4005
-                        KeyCount: 3
-                        Key: 0,0,L
-                        ,46186158000,2,U,s,3,-1,n,92372316000,3,U,a,n
-                    }
-                    LayerType: 1
-                }
-                Channel: "R" {
-                    Channel: "Z" {
-                        Default: 90
-                        KeyVer: 4005
-                        KeyCount: 1
-                        Key: 0,90,U,b,0,0,r,0.5,n
-                    }
-                }
-            }
-        }
-    }
-}
-)";
 
 TEST(FbxCurve, Version6IsReadWithItsTakesAndItsSkin) {
-    const Character character = parse_fbx(old_text, "it");
+    const Character character = parse_fbx(old_text(), "it");
     EXPECT_EQ(character.notes, std::vector<std::string>());
     ASSERT_EQ(character.skeleton.size(), 2u);
     EXPECT_EQ(character.skeleton[1].name, "Knee");
@@ -395,23 +308,23 @@ TEST(FbxCurve, Version6IsReadWithItsTakesAndItsSkin) {
 TEST(FbxCurve, ListsOfTextFilesMayBeginAndEndTheirLinesAnywhere) {
     for (const char* written : {"Key: \n\t0,90,U,b,0,0,r,0.5,n", "Key: 0,90,\n\n\tU,b,\n0,0,r,0.5,n,",
                                 "Key:\n;values\n\t0\n,90,U,b\n,0,0,r,0.5,n,\n;end"}) {
-        std::string text = old_text;
+        std::string text = old_text();
         const std::string key = "Key: 0,90,U,b,0,0,r,0.5,n";
         text.replace(text.find(key), key.size(), written);
         const Character character = parse_fbx(text, "it");
-        EXPECT_EQ(character.clips, parse_fbx(old_text, "it").clips) << written;
+        EXPECT_EQ(character.clips, parse_fbx(old_text(), "it").clips) << written;
         EXPECT_EQ(character.notes, std::vector<std::string>());
     }
 }
 
 TEST(FbxCurve, UnknownVersion6KeysAreReported) {
-    std::string text = old_text;
+    std::string text = old_text();
     text.replace(text.find("U,b,0,0,r"), 9, "Q,b,0,0,r");
     EXPECT_EQ(parse_fbx(text, "it").notes.size(), 1u);
 }
 
 TEST(FbxCurve, VersionsBefore6AreRefusedByNumber) {
-    std::string text = old_text;
+    std::string text = old_text();
     text.replace(text.find("6100"), 4, "5800");
     EXPECT_THROW(parse_fbx(text, "it"), std::runtime_error);
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/io/character/read.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
@@ -312,71 +313,11 @@ namespace fs = std::filesystem;
 
 /// The faults of each third-party file that can be read; empty: careful work, in which nothing may be
 /// found.
-const std::map<std::string, std::set<Fault>>& faults_of_files() {
-    static const std::map<std::string, std::set<Fault>> faults = [] {
-        std::map<std::string, std::set<Fault>> all{
-            // Raw captures: toes that jump by 28 degrees within 1/120 s.
-            {"cmu_01_01.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating}},
-            {"cmu_12_01_walk.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating, Fault::KneePop}},
-            // A unit that makes a person 0.1 m tall.
-            {"cmu_91_48.fbx", {Fault::Scale}},
-            {"cmu_91_50.fbx", {Fault::Scale}},
-            {"fox.glb", {Fault::SignFlip, Fault::Jump, Fault::KneePop}},
-            {"mixed_orders.bvh", {Fault::Sinking}},
-            // Exported without regard for quaternion signs; its head turns all the way round.
-            {"robot.glb", {Fault::SignFlip, Fault::KneePop, Fault::Limit, Fault::Jump}},
-            {"snake.glb", {Fault::SignFlip}},
-            {"bvh_walk_30hz_61.bvh", {Fault::Skating, Fault::Sinking}},
-            {"bvh_walk_60hz_300.bvh", {Fault::Sinking}},
-            {"bvh_walk_folded.bvh", {Fault::Skating, Fault::Sinking}},
-            {"bvh_walk_folded_yaw.bvh", {Fault::Skating, Fault::Sinking}},
-            {"bvh_z_up.bvh", {Fault::Skating}},
-            // 76 clips of a game.
-            {"glb_texture_transform.glb",
-             {Fault::Skating, Fault::Floating, Fault::Sinking, Fault::KneePop, Fault::SignFlip, Fault::Limit,
-              Fault::Jump}}};
-        for (const char* const careful : {"animation_with_skeleton.fbx",
-                                          "cesium_man.gltf",
-                                          "huesitos.fbx",
-                                          "human_clip.glb",
-                                          "human_male.glb",
-                                          "interleaved.glb",
-                                          "pab_skeleton.fbx",
-                                          "pab_walk.fbx",
-                                          "rigify_names.glb",
-                                          "rotation_first.bvh",
-                                          "zombie.glb",
-                                          "fbx_auto_tangent_ends.fbx",
-                                          "fbx_cubic_keys.fbx",
-                                          "fbx_inherit_scale_human.fbx",
-                                          "fbx_inherit_scale_small.fbx",
-                                          "fbx_key_next_line.fbx",
-                                          "fbx_limit_only.fbx",
-                                          "fbx_motionbuilder_jog.fbx",
-                                          "fbx_stepped_keys.fbx",
-                                          "fbx_with_sound.fbx",
-                                          "bvh_acclaim_names.bvh",
-                                          "bvh_ctrlz.bvh",
-                                          "bvh_extra_frame.bvh",
-                                          "bvh_left_right_differ.bvh",
-                                          "bvh_nospace_frames.bvh",
-                                          "bvh_nospace_time.bvh",
-                                          "bvh_nul.bvh",
-                                          "bvh_root_offset.bvh",
-                                          "bvh_rounded_frame_time.bvh",
-                                          "bvh_space_colon.bvh",
-                                          "gltf_animation_pointer.gltf",
-                                          "glb_draco.vrm",
-                                          "glb_empty_bin.vrm",
-                                          "glb_no_skin.glb",
-                                          "gltf_dup_times.gltf",
-                                          "gltf_ktx.gltf",
-                                          "gltf_missing_picture.gltf",
-                                          "gltf_neg_times.gltf",
-                                          "gltf_singular_matrix.gltf",
-                                          "gltf_zero_quat.gltf",
-                                          "gltf_zero_rest.gltf"})
-            all[careful];
+const std::map<std::string, std::set<std::string>>& faults_of_files() {
+    static const std::map<std::string, std::set<std::string>> faults = [] {
+        std::map<std::string, std::set<std::string>> all;
+        const Json file = read_json_file(tendril::test::source_path("tests/app/data/faults_of_files.json"));
+        for (const auto& [name, row] : file.items()) all[name] = row.at("faults");
         return all;
     }();
     return faults;
@@ -421,7 +362,7 @@ TEST(LintFiles, ThirdPartyFilesHaveTheKnownFaults) {
         std::map<Fault, int> counts;
         for (const Clip& clip : character.clips)
             for (const Finding& each : lint(character.skeleton, bone_map(character), clip).findings) {
-                EXPECT_TRUE(known->second.count(each.fault)) << clip.name << ": " << each.text;
+                EXPECT_TRUE(known->second.count(humanoid::name(each.fault))) << clip.name << ": " << each.text;
                 ++counts[each.fault];
             }
         EXPECT_EQ(counts.size(), known->second.size());

@@ -492,7 +492,7 @@ TEST_P(EveryText, IsDrawnByAPanelOnceInItsSection) {
     App app(*window);
     app.tick(nullptr);
     const Lab& lab = *app.labs().find(GetParam());
-    std::vector<test::Shown> scenes = test::all_scenes(lab, app.commands());
+    std::vector<test::Shown> scenes = test::all_scenes(lab);
     const test::TempFolder folder;
     for (test::Shown& each : further_scenes(lab, folder)) scenes.push_back(std::move(each));
     std::set<const void*> drawn;

@@ -7,6 +7,7 @@
 #include "app/labs/kit/past.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
+#include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
@@ -190,7 +191,7 @@ TEST(Pasts, AreInTheStateOfEveryLabThatHasOne) {
         if (!past) continue;
         Workspace workspace = make_blank_workspace(labs);
         workspace.lab = lab->name();
-        const TestScene scene = lab->test_scenes().front();
+        const test::TestScene scene = test::test_scenes(*lab).front();
         for (const CommandCall& call : scene.commands)
             table.run(workspace, call.name, to_json(call.arguments));
         workspace.remember_moment();

@@ -294,7 +294,7 @@ LABEL(slow, "Labs/LayoutTest.CutsNothingAndOverlapsNothing/*");
 
 TEST_P(LayoutTest, CutsNothingAndOverlapsNothing) {
     std::size_t texts = 0;
-    const std::vector<Shown> scenes = all_scenes(lab(), app_.commands());
+    const std::vector<Shown> scenes = all_scenes(lab());
     for (const float scale : scales) {
         set_scale(scale);
         for (std::size_t number = 0; number < scenes.size(); ++number) {
@@ -337,7 +337,7 @@ void stretch_letters(float factor) {
 
 TEST_P(LayoutTest, FitsTextsThatAreAThirdLonger) {
     set_scale(1.0f);
-    for (const Shown& scene : all_scenes(lab(), app_.commands())) {
+    for (const Shown& scene : all_scenes(lab())) {
         set_up(scene);
         run("view.card", {{"open", scene.name == "as it opens"}});
         resize({1280, 720});

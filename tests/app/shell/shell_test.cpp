@@ -11,6 +11,7 @@
 #include "app/shell/input.hpp"
 #include "app/shell/layout.hpp"
 #include "app/shell/shortcuts.hpp"
+#include "tests/app/support/full_scenes.hpp"
 
 namespace tendril::app {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 /// Whether the shortcut's command is accepted in one of its lab's test scenes.
 bool accepted_somewhere(const Labs& labs, const CommandTable& table, const Shortcut& shortcut) {
     const Lab& lab = shortcut.lab.empty() ? *labs.all().front() : *labs.find(shortcut.lab);
-    for (const TestScene& scene : lab.test_scenes()) {
+    for (const test::TestScene& scene : test::test_scenes(lab)) {
         Workspace workspace = make_blank_workspace(labs);
         workspace.names_pictures = true;  // shortcuts belong to a window
         workspace.open_lab(lab.name());

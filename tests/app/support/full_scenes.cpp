@@ -23,181 +23,77 @@ std::vector<CommandCall> bones_and_a_control() {
 
 namespace {
 
-/// The lab's scenes: its opening, its test scenes, and every preset.
-std::vector<Shown> scenes_of(const Lab& lab, const CommandTable& table) {
-    std::vector<Shown> all{{"as it opens", lab.opening()}};
-    for (const TestScene& scene : lab.test_scenes()) all.push_back({scene.name, scene.commands});
+/// The names of the lab's presets.
+std::vector<std::string> presets_of(const Lab& lab) {
+    CommandTable table;
+    lab.add_commands(table);
     if (const Command* preset = table.find(lab.name() + ".preset"))
         for (const Argument& argument : preset->arguments)
-            if (argument.name == "name")
-                for (const std::string& name : argument.choices)
-                    all.push_back({"preset " + name, {call(preset->name.c_str(), {{"name", name}})}});
-    return all;
+            if (argument.name == "name") return argument.choices;
+    return {};
+}
+CommandCall preset_call(const Lab& lab, const std::string& name) {
+    return {lab.name() + ".preset", {{"name", name}}};
 }
 
-std::vector<Shown> full_chains() {
-    const CommandCall arm = call("chain.preset", {{"name", "arm"}}),
-                      reach = call("chain.mode", {{"mode", "reach"}}),
-                      first = call("chain.select", {{"index", 1}});
-    std::vector<Shown> all;
-    for (const char* mode : {"forward", "backward", "fixed", "with_index"})
-        all.push_back({mode, {call("chain.mode", {{"mode", mode}}), first}});
-    for (const char* kind : {"hinge", "ball_and_socket"})
-        all.push_back({kind,
-                       {arm, reach, call("chain.pole", {{"to", glm::vec3(0.5f, 2.0f, 0.5f)}}), first,
-                        call("chain.limit", {{"index", 1}, {"kind", kind}})}});
-    all.push_back({"a limit about no axis",
-                   {arm, reach, first,
-                    call("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", glm::vec3(1, 0, 1)}})}});
-    all.push_back({"root selected", {arm, reach, call("chain.select", {{"index", 0}})}});
-    all.push_back({"two bones",
-                   {call("chain.preset", {{"name", "start"}, {"count", 3}}), reach,
-                    call("chain.solver", {{"name", "two_bone"}})}});
-    all.push_back({"race", {arm, reach, call("race.open"), first}});
-    all.push_back(
-        {"race side by side", {arm, reach, call("race.open"), call("race.side_by_side", {{"on", true}})}});
-    all.push_back({"several joints",
-                   {arm, reach, call("chain.limit", {{"index", 1}, {"kind", "hinge"}}),
-                    call("chain.select", {{"joints", SharedJson(Json{0, 1})}})}});
-    all.push_back({"the target selected", {arm, reach, call("chain.select", {{"point", "target"}})}});
-    all.push_back({"microscope", {arm, reach, call("microscope.open"), first}});
-    all.push_back(
-        {"moving target",
-         {arm, reach, call("chain.motion", {{"path", "circle"}, {"radius", 5.0f}, {"period", 0.5f}}), first},
-         60});
-    return all;
-}
-
-std::vector<Shown> full_ropes() {
-    std::vector<Shown> all;
-    const CommandCall drape = call("rope.preset", {{"name", "drape"}});
-    for (const char* name : {"rope", "cloth", "hair"}) {
-        std::vector<CommandCall> commands{call("rope.clear")};
-        if (std::string(name) == "rope")
-            commands.push_back(call("rope.add", {{"name", "it"},
-                                                 {"from", glm::vec3(0, 1, 0)},
-                                                 {"to", glm::vec3(1, 1, 0)},
-                                                 {"segments", 5},
-                                                 {"pin_start", true}}));
-        if (std::string(name) == "cloth")
-            commands.push_back(call("rope.cloth.add", {{"name", "it"},
-                                                       {"corner", glm::vec3(0, 1, 0)},
-                                                       {"along", glm::vec3(1, 0, 0)},
-                                                       {"down", glm::vec3(0, -1, 0)},
-                                                       {"pins", "corners"}}));
-        if (std::string(name) == "hair")
-            commands.push_back(
-                call("rope.hair.add",
-                     {{"name", "it"}, {"strands", 3}, {"length", 0.5f}, {"centre", glm::vec3(0, 1, 0)}}));
-        for (const int particle : {0, 1}) {
-            std::vector<CommandCall> selected = commands;
-            selected.push_back(call("rope.select", {{"rope", "it"}, {"particle", particle}}));
-            all.push_back({std::string(name) + ", a particle", selected, 20});
-        }
+/// Paths of files begin with "tests/", at the top of the project.
+void add_commands_of(const Json& scene, std::vector<CommandCall>& commands) {
+    for (const Json& line : scene.at("commands")) {
+        CommandCall& made = commands.emplace_back(CommandCall{line.at("command")});
+        for (const auto& [name, value] : line.items())
+            if (value.is_string() && value.get_ref<const std::string&>().starts_with("tests/"))
+                made.arguments.push_back({name, source_path(value)});
+            else if (name != "command")
+                made.arguments.push_back({name, SharedJson(value)});
     }
-    struct Kind {
-        const char* name;
-        ArgumentList shape;
-    };
-    const Kind kinds[] = {{"sphere", {{"centre", glm::vec3(0.0f)}, {"radius", 0.2f}}},
-                          {"capsule", {{"a", glm::vec3(0.0f)}, {"b", glm::vec3(0, 0, 1)}, {"radius", 0.2f}}},
-                          {"box", {{"centre", glm::vec3(0.0f)}, {"half_extents", glm::vec3(0.25f)}}},
-                          {"plane", {{"point", glm::vec3(0.0f)}, {"normal", glm::vec3(0, 1, 0)}}}};
-    for (const Kind& kind : kinds) {
-        ArgumentList arguments{{"name", "it"}, {"kind", kind.name}};
-        arguments.insert(arguments.end(), kind.shape.begin(), kind.shape.end());
-        all.push_back(
-            {kind.name,
-             {call("rope.clear"), call("rope.collider.add", arguments),
-              call("rope.collider.swing", {{"name", "it"}, {"by", glm::vec3(0.2f, 0, 0)}, {"period", 2.0f}}),
-              call("rope.select", {{"collider", "it"}})}});
-    }
-    for (const char* solver : {"direct", "xpbd", "relaxation"})
-        all.push_back({solver, {drape, call("rope.settings", {{"solver", solver}})}});
+}
+
+/// The lab's scenes: its opening, its test scenes, and every preset.
+std::vector<Shown> scenes_of(const Lab& lab) {
+    std::vector<Shown> all{{"as it opens", lab.opening()}};
+    for (const TestScene& scene : test_scenes(lab)) all.push_back({scene.name, scene.commands});
+    for (const std::string& name : presets_of(lab))
+        all.push_back({"preset " + name, {preset_call(lab, name)}});
     return all;
 }
 
-std::vector<Shown> full_signals() {
+/// A scene for every kind of object of a lab that can be selected.
+std::vector<Shown> full_scenes(const std::string& lab) {
     std::vector<Shown> all;
-    for (const signal::Kind& kind : signal::kinds())
-        all.push_back({kind.name,
-                       {call("signal.clear"), call("signal.filter.add", {{"kind", kind.name}}),
-                        call("signal.select", {{"at", 0}})}});
-    for (const char* input : {"hand", "square", "sine", "noise"})
-        all.push_back({input, {call("signal.input", {{"kind", input}})}});
-    const CommandCall draw =
-        call("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
-    all.push_back({"a response", {call("signal.input", {{"kind", "square"}}), draw}});
-    all.push_back({"fitting", {call("signal.input", {{"kind", "square"}}), draw, call("signal.fit")}});
-    return all;
-}
-
-std::vector<Shown> full_rigs() {
-    std::vector<Shown> all;
-    for (const char* kind : {"bool", "float", "vector2d", "position", "rotation", "transform"}) {
-        Shown shown{std::string("control ") + kind, bones_and_a_control()};
-        shown.commands.push_back(
-            call("rig.element.add", {{"name", "it"}, {"kind", "control"}, {"control", kind}}));
-        shown.commands.push_back(call("rig.select", {{"element", "it"}}));
+    if (lab == "signal")
+        for (const signal::Kind& kind : signal::kinds())
+            all.push_back({kind.name,
+                           {call("signal.clear"), call("signal.filter.add", {{"kind", kind.name}}),
+                            call("signal.select", {{"at", 0}})}});
+    const Json file = read_json_file(source_path("tests/app/data/full_scenes.json"));
+    for (const Json& scene : file.value(lab, Json::array())) {
+        Shown shown{scene.at("name"), {}, scene.value("ticks", Shown().ticks)};
+        if (lab == "rig") shown.commands = bones_and_a_control();
+        add_commands_of(scene, shown.commands);
         all.push_back(std::move(shown));
     }
-    for (const char* element : {"a", "c"}) {
-        Shown shown{std::string("bone ") + element, bones_and_a_control()};
-        shown.commands.push_back(call("rig.select", {{"element", element}}));
-        all.push_back(std::move(shown));
-    }
-    Shown several{"several", bones_and_a_control()};
-    several.commands.push_back(call("rig.select", {{"elements", SharedJson(Json{"a", "b", "look"})}}));
-    all.push_back(std::move(several));
-    return all;
-}
-
-std::vector<Shown> full_humanoids() {
-    const CommandCall walk = call("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
-    std::vector<Shown> all;
-    for (const char* node : {"LeftHand", "Head", "Hips", "HeadTop_End", "LeftLowerLeg"})
-        all.push_back({node, {walk, call("humanoid.select", {{"node", node}})}});
-    all.push_back({"several nodes",
-                   {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
-                    call("humanoid.limits", {{"from", "none"}, {"bone", "Head"}}),
-                    call("humanoid.select",
-                         {{"nodes", SharedJson(Json::array({"Hips", "Head", "LeftHand", "HeadTop_End"}))}})},
-                   20});
-    all.push_back({"a spring",
-                   {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
-                    call("humanoid.select", {{"node", "HeadTop_End"}})},
-                   20});
-    const std::string golden = source_path("tests/app/golden/");
-    all.push_back({"a file with a skin", {call("humanoid.load", {{"path", golden + "body.glb"}})}});
-    all.push_back({"a clip with faults",
-                   {call("humanoid.load", {{"path", golden + "faulty_walk.bvh"}}),
-                    call("humanoid.clip", {{"index", 0}})}});
-    for (const char* ground : {"flat", "slope", "stairs", "terrain"})
-        all.push_back(
-            {ground,
-             {walk, call("humanoid.ground", {{"kind", ground}}), call("humanoid.foot_ik", {{"on", true}})}});
-    all.push_back(
-        {"hands",
-         {walk, call("humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.5f, 0.7f)}}),
-          call("humanoid.target", {{"effector", "right_hand"}, {"to", glm::vec3(0, 1.4f, 0.5f)}}),
-          call("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}}),
-          call("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}}),
-          call("humanoid.look_at", {{"on", true}, {"to", glm::vec3(0.5f, 1.5f, 1.5f)}})}});
     return all;
 }
 
 }  // namespace
 
-std::vector<Shown> all_scenes(const Lab& lab, const CommandTable& table) {
-    std::vector<Shown> all = scenes_of(lab, table);
-    const auto add = [&](std::vector<Shown> more) {
-        all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-    };
-    if (lab.name() == "chain") add(full_chains());
-    if (lab.name() == "rope") add(full_ropes());
-    if (lab.name() == "signal") add(full_signals());
-    if (lab.name() == "rig") add(full_rigs());
-    if (lab.name() == "humanoid") add(full_humanoids());
+std::vector<TestScene> test_scenes(const Lab& lab) {
+    std::vector<TestScene> all;
+    const Json file = read_json_file(source_path("tests/app/data/test_scenes.json"));
+    if (!file.contains(lab.name())) return all;
+    const std::vector<std::string> words = file[lab.name()].at("words");
+    for (const Json& scene : file[lab.name()].at("scenes"))
+        if (scene.contains("presets"))
+            for (const std::string& name : presets_of(lab))
+                all.push_back({name, {preset_call(lab, name)}, words});
+        else
+            add_commands_of(scene, all.emplace_back(TestScene{scene.at("name"), {}, words}).commands);
+    return all;
+}
+
+std::vector<Shown> all_scenes(const Lab& lab) {
+    std::vector<Shown> all = scenes_of(lab);
+    for (Shown& each : full_scenes(lab.name())) all.push_back(std::move(each));
     std::set<std::string> seen;
     std::erase_if(all, [&](const Shown& shown) {
         Json json = shown.ticks;

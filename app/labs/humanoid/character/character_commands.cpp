@@ -491,6 +491,11 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return name.empty() ? part.playback.clip.value_or(0) : part.loaded->clip_called(name);
 }
 
+/// Whether the file can hold more than the character's own bones.
+bool takes_worn(const std::filesystem::path& path) {
+    return lower_case(path.extension().string()) != ".bvh";
+}
+
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,
                         const std::filesystem::path& path) {
     const HumanoidPart& part = humanoid_part(workspace);
@@ -498,12 +503,15 @@ ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_
     const double rate =
         given.has("fps") ? given.real("fps") : humanoid::frame_rate(part.loaded->clips()[clip]);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
+    Wardrobe wardrobe{humanoid_runtime(workspace).ropes};
+    const Clip shown = clip_as_shown(part, solvers, clip, rate, takes_worn(path) ? &wardrobe : nullptr);
     return export_clip({.character = part.loaded->character,
                         .file = part.loaded->path,
                         .original = original,
-                        .corrected = clip_as_shown(part, solvers, clip, rate),
+                        .corrected = shown,
                         .rate = rate,
                         .ground = ground_of_feet(part, solvers),
+                        .worn = std::move(wardrobe.worn),
                         .outputs = &workspace.writes()},
                        path);
 }
@@ -519,14 +527,14 @@ void export_shown(Workspace& workspace, const Arguments& given) {
         workspace.writes().check(paths, OutputKind::Motion);
         for (std::size_t i = 0; i < paths.size(); ++i)
             reports.push_back(export_one(workspace, given, i, paths[i]));
-        return workspace.toast(written_text(paths.front()) +
-                               (paths.size() > 1 ? " and the others" : std::string()) + ". " +
-                               sum_text(reports) + left_out_text(humanoid_part(workspace), true));
+        return workspace.toast(
+            written_text(paths.front()) + (paths.size() > 1 ? " and the others" : std::string()) + ". " +
+            sum_text(reports) + worn_text(humanoid_part(workspace), true, takes_worn(path)));
     }
     const ExportReport report = export_one(workspace, given, clip, path);
     const std::string which = one_of_clips_text(character, character.clips[clip].name);
     workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text() +
-                    left_out_text(humanoid_part(workspace), true));
+                    worn_text(humanoid_part(workspace), true, takes_worn(path)));
 }
 
 std::vector<std::string> fault_names() {

@@ -10,6 +10,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
+#include "app/labs/humanoid/attachments/worn_motion.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
@@ -77,7 +78,7 @@ bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skel
 
 }  // namespace
 
-Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate) {
+Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate, Wardrobe* wardrobe) {
     const Playback was = part.playback;
     part.playback = {.clip = clip,
                      .loop = false,
@@ -88,7 +89,14 @@ Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double
     carry_targets(part, was);
     IkState state;
     const Clip& before = part.loaded->clips()[clip];
-    return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
+    std::optional<WornMotion> motion;
+    if (wardrobe) {
+        IkState start = state;
+        motion.emplace(part, solvers, solve_pose(part, solvers, 0.0, start), wardrobe->ropes);
+        wardrobe->worn = motion->worn();
+    }
+    const humanoid::Skeleton skeleton = wardrobe ? wardrobe->worn.dressed(part.skeleton()) : part.skeleton();
+    return baked(skeleton, before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
         // Steps of a tick, as in playback, also at a lower rate: springs depend on the length of a step.
         const int steps = std::max(1, static_cast<int>(std::ceil(dt / tick_seconds - 1e-6)));
         for (int i = 1; i <= steps; ++i) {
@@ -96,7 +104,10 @@ Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double
             part.playback.time = time - dt * (1.0 - static_cast<double>(i) / steps);
             carry_targets(part, last);
             const ShownPose shown = solve_pose(part, solvers, dt / steps, state);
-            if (i == steps) std::ranges::copy(shown.local, pose.begin());
+            if (motion) motion->advance(part, solvers, shown, dt / steps);
+            if (i < steps) continue;
+            std::ranges::copy(shown.local, pose.begin());
+            if (motion) motion->pose(shown, pose.subspan(shown.local.size()));
         }
     });
 }
@@ -365,7 +376,8 @@ void export_rows(const HumanoidPanel& panel) {
     text_field("write to", path, one.c_str());
     explain(
         "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it. "
-        "Bones and skin alone: without ropes, hair, cloth and what the hands hold.");
+        "glTF also takes ropes, hair, cloth and the object in the hands, as bones with a mesh; BVH takes "
+        "none.");
     const int buttons = clips.size() > 1 ? 2 : 1;
     if (row_button("Export clip", buttons, true, "Asks before it replaces a file"))
         panel.emit("humanoid.export", {{"path", one}});

@@ -4,14 +4,23 @@
 #include <optional>
 #include <string>
 #include <tendril/humanoid/lint.hpp>
+#include <tendril/rope/workspace.hpp>
 
+#include "app/io/character/gltf_write.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
 
 namespace tendril::app {
 
-/// The clip as displayed, played once from its start: what an export writes.
-humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate);
+/// What the character wears and holds, with the memory that its simulation needs.
+struct Wardrobe {
+    rope::Workspace& ropes;
+    Worn worn{};
+};
+/// The clip as displayed, played once from its start: an export writes it. Fills the wardrobe, if there is
+/// one, and moves its nodes.
+humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate,
+                             Wardrobe* wardrobe = nullptr);
 /// The ground on which foot IK puts the feet; null without foot IK.
 const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
 

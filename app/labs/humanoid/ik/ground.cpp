@@ -93,8 +93,10 @@ class GroundDrawing {
         for (int k = first; k <= last; ++k) {
             const float top = static_cast<float>(k) * height;
             const float low = std::min(top - 0.02f, 0.0f), high = std::max(top, low + 0.02f);
-            box(list_, view_.camera, {around_.x, 0.5f * (low + high), (static_cast<float>(k) + 0.5f) * depth},
-                {half_width, 0.5f * (high - low), 0.5f * depth}, glm::quat(1.0f, 0.0f, 0.0f, 0.0f), colour_);
+            const glm::vec3 middle(around_.x, 0.5f * (low + high), (static_cast<float>(k) + 0.5f) * depth),
+                half(half_width, 0.5f * (high - low), 0.5f * depth);
+            if (!hides(middle, half))
+                box(list_, view_.camera, middle, half, glm::quat(1.0f, 0.0f, 0.0f, 0.0f), colour_);
         }
     }
 
@@ -161,6 +163,19 @@ class GroundDrawing {
     }
 
   private:
+    /// Whether a box is between the eye and the figure: a camera that turns passes through stairs.
+    bool hides(const glm::vec3& middle, const glm::vec3& half) const {
+        const glm::vec3 eye = view_.camera.eye();
+        float enters = 0.0f, leaves = 1.0f;  // fractions of the way from the eye to the figure
+        for (int i = 0; i < 3; ++i) {
+            const float way = around_[i] - eye[i], to = middle[i] - eye[i];
+            if (way == 0.0f && std::abs(to) > half[i]) return false;
+            if (way == 0.0f) continue;
+            const float a = (to - half[i]) / way, b = (to + half[i]) / way;
+            enters = std::max(enters, std::min(a, b)), leaves = std::min(leaves, std::max(a, b));
+        }
+        return enters < leaves;
+    }
     void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) const {
         const glm::vec3 normal = glm::cross(c - a, d - b);
         if (!(glm::length(normal) > 1e-9f)) return;

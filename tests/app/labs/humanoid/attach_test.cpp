@@ -2,9 +2,11 @@
 #include <fstream>
 #include <random>
 
+#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
+#include "tests/app/io/posed.hpp"
 
 namespace tendril::app {
 namespace {
@@ -48,6 +50,32 @@ TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     EXPECT_NEAR(particle("cape", 0).y, 1.45, 0.05);
     EXPECT_NEAR(last("cape").y, 0.55, 0.05);
     EXPECT_LT(particle_depth(), 1e-4);
+}
+
+/// The file against the same seconds in the lab: each strand and column is a chain of bones.
+TEST_F(HumanoidAttach, IsInAnExportWithWhatTheHandsHold) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
+    run("humanoid.hold", {{"kind", "rifle"}});
+    dress();
+    run("humanoid.wind", {{"wind", {0.0, 0.0, 3.0}}});
+    const std::string path = write("dressed.glb", "");
+    run("humanoid.export", {{"path", path}, {"fps", 60}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "With: cape, ponytail, tail, rifle"));
+    const Character read = read_character(path);
+    EXPECT_EQ(read.skin.mesh->parts.size(), part().loaded->character.skin.mesh->parts.size() + 4);
+    tick(120);
+    run("humanoid.clip", {{"play", true}});
+    for (const double seconds : {0.25, 0.5, 0.75}) {
+        tick(15);
+        const auto off = [&](const char* name, const glm::dvec3& wanted) {
+            return glm::distance(test_posed::at(read, name, 0, seconds), wanted);
+        };
+        EXPECT_LT(off("tail_8", particle("tail", 7)), 1e-3) << seconds;
+        EXPECT_LT(off("ponytail_2_11", particle("ponytail", 21)), 1e-3) << seconds;
+        EXPECT_LT(off("cape_3_19", particle("cape", 18 * body("cape").row + 2)), 0.04)
+            << seconds << ": put on anew, it folds a little differently";
+        EXPECT_LT(off("rifle", shown_pose(workspace).hold->object.position), 1e-4) << seconds;
+    }
 }
 
 /// One wind for everything that hangs. It is of the scene: attachments and characters come and go in it.

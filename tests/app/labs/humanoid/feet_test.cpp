@@ -108,6 +108,26 @@ TEST_F(HumanoidFeet, WalkUpStairs) {
     expect_walks_on([](double z) { return 0.15 * std::floor(std::max(0.0, z) / 0.4); });
 }
 
+/// A turntable's camera passes through steep stairs.
+TEST_F(HumanoidFeet, StairsDoNotStandBetweenTheEyeAndTheFigure) {
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.3}, {"step_depth", 0.3}});
+    const glm::vec3 hips(bone("Hips"));
+    for (const float yaw : {0.0f, 1.5f, 3.0f, 3.3f, 4.5f}) {
+        const CameraPose pose{.target = hips, .yaw = yaw, .pitch = 0.2f, .distance = 3.9f};
+        const glm::vec3 eye = Camera(pose, {{0.0f, 0.0f}, {1000.0f, 700.0f}}).eye();
+        const Mesh mesh = drawn(pose).mesh;
+        EXPECT_GT(mesh.indices.size(), 100u) << "most stairs are drawn";
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const auto at = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]].position; };
+            const glm::vec3 met =
+                glm::inverse(glm::mat3(at(1) - at(0), at(2) - at(0), eye - hips)) * (eye - at(0));
+            EXPECT_FALSE(met.x >= 0.0f && met.y >= 0.0f && met.x + met.y <= 1.0f && met.z > 0.0f &&
+                         met.z < 1.0f)
+                << yaw;
+        }
+    }
+}
+
 /// Two triangles, 40 m wide, rising by 0.2 m from z = -20 to z = 20, as a text glTF.
 std::string ramp() {
     test_gltf::GltfText file;

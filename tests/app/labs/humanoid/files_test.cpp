@@ -151,8 +151,8 @@ TEST_F(HumanoidFiles, AnExportReportsOtherClipsAndWritesThemAll) {
     expect_refused("humanoid.export", {{"path", path("x.glb")}, {"all", true}, {"clip", "walk"}}, {"clip"});
     run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}});
     run("humanoid.hold", {{"kind", "rifle"}});
-    run("humanoid.export", {{"path", path("bones.glb")}});
-    tells("bones.glb Left out: hair, rifle");
+    run("humanoid.export", {{"path", path("bones.bvh")}});
+    tells("bones.bvh Left out: hair, rifle");
     run("humanoid.copy");
     EXPECT_TRUE(workspace.ui.toasts.back().text.ends_with("C++. Left out: hair"));
     // A file with one clip is not reported as "1 of 1".

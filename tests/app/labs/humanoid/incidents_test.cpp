@@ -7,6 +7,7 @@
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
+#include "tests/app/support/full_scenes.hpp"
 
 namespace tendril::app {
 namespace {
@@ -107,7 +108,7 @@ TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedAtTheBoneThatRotatedFurthest) {
 }
 
 TEST_F(HumanoidIncidents, CorrectMotionHasNoFlips) {
-    for (const TestScene& scene : lab().test_scenes()) {
+    for (const test::TestScene& scene : test::test_scenes(lab())) {
         workspace = make_blank_workspace(labs);
         for (const CommandCall& call : scene.commands) run(call.name.c_str(), to_json(call.arguments));
         std::size_t others = 0;

@@ -25,43 +25,7 @@ class RigFile : public RigTest {
 
 /// One unit of each kind, with inputs of every form where possible.
 Json one_of_each() {
-    return Json::parse(R"([
-{"unit": "aim", "item": "tip", "max_speed": 90,
- "primary": {"axis": [0, 0, 1], "target": "position", "kind": "location", "weight": {"element": "float", "of": "value"}},
- "secondary": {"axis": [0, 1, 0], "target": [0, 1, 0], "kind": "direction"}},
-{"unit": "aim_math", "transform": {"element": "tip", "of": "transform", "space": "initial_global"},
- "primary": {"target": [1, 2, 3]}},
-{"unit": "parent_constraint", "item": "middle",
- "parents": [{"item": "transform", "weight": 0.5}, {"item": "position", "weight": {"element": "float", "of": "value"}}],
- "maintain_offset": {"element": "bool", "of": "value"},
- "filter": {"translation": [true, false, true], "scale": [false, false, false]}},
-{"unit": "offset_transform", "item": "root", "offset": {"translation": [0.1, 0, 0], "rotation": [0, 0, 0.6, 0.8]},
- "propagate": false},
-{"unit": "set_transform", "item": "tip", "transform": "transform", "space": "local"},
-{"unit": "set_rotation", "item": "tip", "rotation": "rotation", "weight": 0.5},
-{"unit": "project_to_parent", "child": "tip", "old_parent": "middle", "new_parent": "root"},
-{"unit": "from_two_vectors", "name": "arc", "from": [1, 0, 0], "to": "position"},
-{"unit": "transform_location", "transform": {"unit": "aim_math"},
- "location": {"element": "tip", "of": "scale", "space": "initial_local"}},
-{"unit": "transform_direction", "transform": "tip", "direction": [0, 0, 1], "when": "bool"},
-{"unit": "for_each", "roots": ["root"], "include_parent": false, "recursive": false, "body": [
-  {"unit": "set_rotation", "item": {"item": "each"}, "weight": {"each": "ratio"}},
-  {"unit": "evaluate_curve", "name": "inner", "value": {"item": "each", "of": "x", "space": "local"}},
-  {"unit": "transform_location", "transform": {"item": "each"}},
-  {"unit": "spring_interpolate", "target": {"item": "each"}}]},
-{"unit": "alpha_interpolate", "value": "float", "map_range": true, "in_range": [2, 2], "out_range": [1, -1],
- "clamp": true, "interp": "bool"},
-{"unit": "spring_interpolate", "name": "trail", "target": {"element": "position"}, "force": [0, -9.81, 0],
- "critical_damping": 0.3},
-{"unit": "spring_interpolate", "name": "trail by number", "target": {"element": "float", "of": "value"}},
-{"unit": "spring_interpolate", "name": "trail by rotation", "target": {"element": "rotation", "of": "rotation"}},
-{"unit": "evaluate_curve", "value": {"element": "float", "of": "value"}, "curve": {"source_max": 2,
-  "keys": [{"time": 0, "value": 0, "leave": 2, "piece": "cubic"}, {"time": 1, "value": 1}]}},
-{"unit": "set_curve", "curve": "smile", "value": {"unit": "evaluate_curve"}},
-{"unit": "two_bone", "root": "root", "tip": "tip", "target": "position", "pole_target": [0, 5, 0]},
-{"unit": "fabrik", "root": "root", "tip": "tip", "target": [1, 1, 0], "enabled": false},
-{"unit": "spline", "root": "root", "tip": "tip", "points": ["root", "position"], "b_spline": "bool", "fit": true,
- "max_factor": 1.5, "up": [0, 0, 1], "roll_start_deg": -30, "roll_end_deg": {"element": "float", "of": "value"}}])");
+    return read_json_file(test::source_path("tests/app/data/every_unit.json"));
 }
 
 TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {

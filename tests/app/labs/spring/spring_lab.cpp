@@ -84,10 +84,4 @@ std::vector<MouseHelp> SpringLab::mouse_help() const {
     return {{"Left drag on the ball", "holds it there"}};
 }
 
-std::vector<TestScene> SpringLab::test_scenes() const {
-    return {{.name = "aside",
-             .commands = {{"spring.anchor", {{"to", glm::vec3(1.0f, 2.0f, 0.0f)}}}},
-             .words = {}}};
-}
-
 }  // namespace tendril::test

@@ -35,7 +35,6 @@ class SpringLab final : public app::Lab {
               app::Emit& emit) const override;
     std::vector<app::Shortcut> shortcuts() const override;
     std::vector<app::MouseHelp> mouse_help() const override;
-    std::vector<app::TestScene> test_scenes() const override;
 };
 
 }  // namespace tendril::test
