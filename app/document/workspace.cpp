@@ -58,7 +58,7 @@ void Workspace::open_lab(const std::string& name) {
 
 Outputs& Workspace::writes() {
     outputs.in_use.clear();
-    for (const auto& [lab, part] : document.parts()) {
+    for (const auto& [name, part] : document.parts()) {
         const std::vector<std::filesystem::path> files = part->files();
         outputs.in_use.insert(outputs.in_use.end(), files.begin(), files.end());
     }
@@ -88,6 +88,9 @@ void Workspace::forget_pasts() {
     discarded.reset();
     pasts.clear();
     ui.incident.reset();
+    const auto parts = document.parts();
+    for (const auto& [name, part] : parts)
+        if (std::shared_ptr<const Part> rest = part->without_past()) document.set(name, std::move(rest));
 }
 
 void Workspace::pass_change() {

@@ -139,6 +139,13 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
     return part;
 }
 
+std::shared_ptr<const Part> ChainPart::without_past() const {
+    if (!traced) return nullptr;
+    auto rest = std::make_shared<ChainPart>(*this);
+    rest->traced.reset();
+    return rest;
+}
+
 std::vector<std::filesystem::path> ChainPart::files() const {
     if (!traced || traced->trace->path.empty()) return {};
     return {traced->trace->path};

@@ -65,6 +65,7 @@ struct ChainPart final : Part {
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
     void upgrade(Json& json, int version) const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
+    std::shared_ptr<const Part> without_past() const override;
     std::size_t bytes() const override;
     std::vector<std::filesystem::path> files() const override;
 };
