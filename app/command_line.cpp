@@ -347,7 +347,8 @@ int run_command_line(const std::vector<std::string>& words) {
     BatchLine batch(line);
     line.require_subcommand(0, 1);
     try {
-        line.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
+        line.parse(
+            std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
         if (!batch.asked()) {
             session.check();
             return session.run();

@@ -6,8 +6,8 @@
 
 namespace tendril::app {
 
-/// `words` begin with the program's name. Returns the program's exit code: run_session's or the subcommand's, or 2 for an invalid command line.
-/// Errors are printed to stderr, in one line.
+/// `words` begin with the program's name. Returns the program's exit code: run_session's or the subcommand's,
+/// or 2 for an invalid command line. Errors are printed to stderr, in one line.
 int run_command_line(const std::vector<std::string>& words);
 
 }  // namespace tendril::app

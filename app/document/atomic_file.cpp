@@ -57,8 +57,8 @@ constexpr std::string_view torn_start = ".tendril-", torn_end = ".tmp";
 /// A name that no other writer is using, in this program or another.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-    return folder / (std::string(torn_start) + std::to_string(process_id()) + "-" + std::to_string(counter++) +
-                     std::string(torn_end));
+    return folder / (std::string(torn_start) + std::to_string(process_id()) + "-" +
+                     std::to_string(counter++) + std::string(torn_end));
 }
 
 /// Refuses to replace a read-only file; renaming alone would not check.
@@ -102,7 +102,8 @@ class AtomicFile::Beside {
 
     const fs::path& name() const { return name_; }
     void append(std::string_view bytes) { require(file_.write(bytes)); }
-    /// Returns once all data is on disk, under its final name and with the permissions of the file that it replaces.
+    /// Returns once all data is on disk, under its final name and with the permissions of the file that it
+    /// replaces.
     void move_over(const fs::path& file) {
         require(file_.copy_permissions(file) && file_.sync());
         require(replace_file(name_, file));
@@ -181,7 +182,8 @@ std::string shown_path(const fs::path& path) {
     std::error_code ignored;
     std::string text = fs::absolute(path, ignored).lexically_normal().string();
     const std::string under = home_folder() + slash;
-    if (under.size() > 2 && text.starts_with(under)) text = std::string("~") + slash + text.substr(under.size());
+    if (under.size() > 2 && text.starts_with(under))
+        text = std::string("~") + slash + text.substr(under.size());
     if (text.size() <= longest_shown_path) return text;
     const std::size_t first = text.find(slash, 1);
     if (first == text.npos) return text;

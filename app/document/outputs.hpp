@@ -48,7 +48,7 @@ class Outputs {
   private:
     std::map<std::filesystem::path, FileStamp> owned_;
     std::map<std::filesystem::path, FileStamp> asked_;  ///< refused because they existed like this
-    std::string asked_loss_{};                      ///< refused by confirm()
+    std::string asked_loss_{};                          ///< refused by confirm()
 
     const char* again() const {
         return in_window ? ". Do the same again to replace it" : "; --force replaces it";

@@ -93,7 +93,9 @@ Image read_png(const std::filesystem::path& path) {
     Image image;
     int found = 0;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), &std::fclose);
-    if (!file) throw std::runtime_error("cannot read " + path.string() + ": " + std::generic_category().message(errno));
+    if (!file)
+        throw std::runtime_error("cannot read " + path.string() + ": " +
+                                 std::generic_category().message(errno));
     stbi_uc* const pixels = stbi_load_from_file(file.get(), &image.size.x, &image.size.y, &found, channels);
     if (pixels == nullptr)
         throw std::runtime_error("cannot read " + path.string() + ": " + stbi_failure_reason());

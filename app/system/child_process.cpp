@@ -55,7 +55,8 @@ std::wstring wide(const std::string& text) {
     return fs::path(text).wstring();
 }
 
-/// As the C runtime of the other program takes it apart again: backslashes count only before a quotation mark.
+/// As the C runtime of the other program takes it apart again: backslashes count only before a quotation
+/// mark.
 std::wstring command_line(const std::vector<std::string>& words) {
     std::wstring line;
     for (const std::string& word : words) {
@@ -74,7 +75,8 @@ std::wstring command_line(const std::vector<std::string>& words) {
 /// A file that is gone once it is closed, and that a child may inherit.
 std::FILE* open_complaints() {
     wchar_t folder[MAX_PATH + 1] = L"", name[MAX_PATH + 1] = L"";
-    if (::GetTempPathW(MAX_PATH, folder) == 0 || ::GetTempFileNameW(folder, L"ten", 0, name) == 0) return nullptr;
+    if (::GetTempPathW(MAX_PATH, folder) == 0 || ::GetTempFileNameW(folder, L"ten", 0, name) == 0)
+        return nullptr;
     SECURITY_ATTRIBUTES inherited{sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
     const HANDLE handle =
         ::CreateFileW(name, GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited,
@@ -92,8 +94,8 @@ class ChildProcess::Running {
         HANDLE reads = nullptr;
         if (::CreatePipe(&reads, &input_, &inherited, 1 << 16) == 0) fail_to_start(name);
         ::SetHandleInformation(input_, HANDLE_FLAG_INHERIT, 0);
-        const HANDLE nowhere = ::CreateFileW(L"NUL", GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited,
-                                             OPEN_EXISTING, 0, nullptr);
+        const HANDLE nowhere = ::CreateFileW(L"NUL", GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
+                                             &inherited, OPEN_EXISTING, 0, nullptr);
         STARTUPINFOW start{};
         start.cb = sizeof start;
         start.dwFlags = STARTF_USESTDHANDLES;
@@ -102,8 +104,8 @@ class ChildProcess::Running {
         start.hStdError = reinterpret_cast<HANDLE>(::_get_osfhandle(::_fileno(complaints)));
         PROCESS_INFORMATION made{};
         std::wstring line = command_line(command);
-        const bool started = ::CreateProcessW(wide(command.front()).c_str(), line.data(), nullptr, nullptr, TRUE,
-                                              CREATE_NO_WINDOW, nullptr, nullptr, &start, &made) != 0;
+        const bool started = ::CreateProcessW(wide(command.front()).c_str(), line.data(), nullptr, nullptr,
+                                              TRUE, CREATE_NO_WINDOW, nullptr, nullptr, &start, &made) != 0;
         const DWORD why = ::GetLastError();
         ::CloseHandle(reads);
         ::CloseHandle(nowhere);
@@ -328,7 +330,8 @@ fs::path find_program(const std::string& name) {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command)
-    : name_(fs::path(command.front()).filename().string()), complaints_(open_complaints()),
+    : name_(fs::path(command.front()).filename().string()),
+      complaints_(open_complaints()),
       running_(std::make_unique<Running>(name_, command, complaints_.get())) {}
 
 ChildProcess::~ChildProcess() = default;

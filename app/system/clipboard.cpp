@@ -42,7 +42,8 @@ std::vector<std::string> command() {
     const bool in_wayland = !environment_variable("WAYLAND_DISPLAY").empty();
     if (!wayland.empty() && (in_wayland || x11.empty())) return {wayland, "--type", "image/png"};
     if (!x11.empty()) return {x11, "-selection", "clipboard", "-t", "image/png"};
-    throw std::runtime_error(std::string("to copy a picture, install ") + (in_wayland ? "wl-clipboard" : "xclip"));
+    throw std::runtime_error(std::string("to copy a picture, install ") +
+                             (in_wayland ? "wl-clipboard" : "xclip"));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace tendril::app {
 
-/// Puts a PNG file's bytes on the clipboard. On Linux wl-copy or xclip does it. Throws std::runtime_error if that is not
-/// possible, naming the program to install.
+/// Puts a PNG file's bytes on the clipboard. On Linux wl-copy or xclip does it. Throws std::runtime_error if
+/// that is not possible, naming the program to install.
 void copy_png(std::string_view png);
 
 }  // namespace tendril::app

@@ -7,6 +7,8 @@
 #include <utility>
 
 #ifdef _WIN32
+#include <cwchar>
+
 #include <windows.h>
 
 #include <fcntl.h>
@@ -16,6 +18,45 @@
 #include <cstdio>
 #else
 #include <unistd.h>
+#endif
+
+#ifdef __MINGW32__
+/// Its libstdc++ makes paths of narrow text by mbrtowc, and that of Windows' C library knows no UTF-8; the
+/// linker calls this one instead. Outside the first plane, the first byte gives one half of a pair and the
+/// other three the second.
+extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t size,
+                                      std::mbstate_t* state) {
+    constexpr std::size_t invalid = static_cast<std::size_t>(-1), incomplete = static_cast<std::size_t>(-2);
+    if (from == nullptr) return 0;
+    if (size == 0) return incomplete;
+    wchar_t ignored = 0;
+    if (to == nullptr) to = &ignored;
+    if (state != nullptr && *state != 0) {
+        *to = static_cast<wchar_t>(std::exchange(*state, 0));
+        return 3;
+    }
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(from[i]); };
+    const std::size_t length = byte(0) < 0x80   ? 1
+                               : byte(0) < 0xc2 ? 0
+                               : byte(0) < 0xe0 ? 2
+                               : byte(0) < 0xf0 ? 3
+                               : byte(0) < 0xf5 ? 4
+                                                : 0;
+    if (length == 0) return invalid;
+    if (size < length) return incomplete;
+    unsigned code = length == 1 ? byte(0) : byte(0) & (0xffu >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return invalid;
+        code = code << 6 | (byte(i) & 0x3fu);
+    }
+    if (length == 4 && state != nullptr) {
+        *to = static_cast<wchar_t>(0xd800 + ((code - 0x10000) >> 10));
+        *state = static_cast<std::mbstate_t>(0xdc00 + (code & 0x3ff));
+        return 1;
+    }
+    *to = static_cast<wchar_t>(code);
+    return code == 0 ? 0 : length;
+}
 #endif
 
 namespace tendril::app {
@@ -116,14 +157,16 @@ void handle_end_signals(void (*handler)(int)) {
 fs::path config_folder() {
     for (const auto& [variable, below] : {std::pair{"XDG_CONFIG_HOME", "tendril"}, user_settings})
         // A relative path would depend on the working directory.
-        if (const fs::path folder = environment_variable(variable); folder.is_absolute()) return folder / below;
+        if (const fs::path folder = environment_variable(variable); folder.is_absolute())
+            return folder / below;
     return {};
 }
 
 std::string local_time(std::int64_t seconds, const char* format) {
     std::tm parts{};
     char text[64] = "";
-    if (local_parts(static_cast<std::time_t>(seconds), parts)) std::strftime(text, sizeof text, format, &parts);
+    if (local_parts(static_cast<std::time_t>(seconds), parts))
+        std::strftime(text, sizeof text, format, &parts);
     return text;
 }
 

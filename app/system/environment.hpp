@@ -10,12 +10,13 @@ namespace tendril::app {
 
 int process_id();
 
-/// The command line's words, the program's name first, from main()'s arguments. Once, at the start: on Windows it also
-/// has the console and pipes take bytes as they are, and leaves a console that was opened for this program alone.
+/// The command line's words, the program's name first, from main()'s arguments. Once, at the start: on
+/// Windows it also has the console and pipes take bytes as they are, and leaves a console that was opened for
+/// this program alone.
 std::vector<std::string> begin_program(int count, const char* const* words);
 
-/// Has `handler` called when the program is asked to end: by Ctrl+C, by another program, or since its terminal or login
-/// session was closed. It may only set flags. SIG_DFL ends the program at once.
+/// Has `handler` called when the program is asked to end: by Ctrl+C, by another program, or since its
+/// terminal or login session was closed. It may only set flags. SIG_DFL ends the program at once.
 void handle_end_signals(void (*handler)(int));
 
 /// Empty if it is not set.
@@ -26,8 +27,8 @@ bool errors_on_terminal();
 
 /// The folder that "~" stands for; empty if there is none or no such custom.
 std::string home_folder();
-/// Where this user's settings and autosaves are kept: below XDG_CONFIG_HOME if that is set, else in ~/.config or, on
-/// Windows, in AppData\Roaming. Empty if nothing says where.
+/// Where this user's settings and autosaves are kept: below XDG_CONFIG_HOME if that is set, else in ~/.config
+/// or, on Windows, in AppData\Roaming. Empty if nothing says where.
 std::filesystem::path config_folder();
 
 /// Unix time as strftime's `format` has it, in this machine's time zone; empty if it cannot be told.

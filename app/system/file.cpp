@@ -32,7 +32,8 @@ HANDLE handle_of(std::intptr_t handle) {
     return reinterpret_cast<HANDLE>(handle);
 }
 
-std::intptr_t open_handle(const fs::path& path, DWORD access, DWORD how, DWORD flags = FILE_ATTRIBUTE_NORMAL) {
+std::intptr_t open_handle(const fs::path& path, DWORD access, DWORD how,
+                          DWORD flags = FILE_ATTRIBUTE_NORMAL) {
     return reinterpret_cast<std::intptr_t>(
         ::CreateFileW(path.c_str(), access, share_all, nullptr, how, flags, nullptr));
 }
@@ -87,7 +88,8 @@ bool SystemFile::write(std::string_view bytes) {
 }
 
 bool SystemFile::try_lock(bool shared) {
-    // Windows keeps others from reading and writing the bytes that are locked: one far past the end stands for all.
+    // Windows keeps others from reading and writing the bytes that are locked: one far past the end stands
+    // for all.
     OVERLAPPED far_away{};
     far_away.OffsetHigh = 1 << 30;
     const DWORD kind = LOCKFILE_FAIL_IMMEDIATELY | (shared ? 0 : LOCKFILE_EXCLUSIVE_LOCK);
@@ -119,7 +121,8 @@ bool may_write(const fs::path& path) {
 }
 
 FileStamp file_stamp(const fs::path& path) {
-    const HANDLE handle = handle_of(open_handle(path, FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS));
+    const HANDLE handle =
+        handle_of(open_handle(path, FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS));
     if (handle == INVALID_HANDLE_VALUE) return {};
     const FileStamp stamp = stamp_of(handle);
     ::CloseHandle(handle);
@@ -242,10 +245,11 @@ std::shared_ptr<void> await_pipe(const fs::path& path) {
     const std::string name = path.string();
     if (!fs::is_fifo(path, error) || name.starts_with("/dev/") || name.starts_with("/proc/")) return nullptr;
     const auto open_end = [&](int flags) {
-        return std::shared_ptr<const int>(new int(open_handle(path, flags | O_NONBLOCK)), [](const int* handle) {
-            if (*handle >= 0) ::close(*handle);
-            delete handle;
-        });
+        return std::shared_ptr<const int>(new int(open_handle(path, flags | O_NONBLOCK)),
+                                          [](const int* handle) {
+                                              if (*handle >= 0) ::close(*handle);
+                                              delete handle;
+                                          });
     };
     const auto reader = open_end(O_RDONLY);
     struct pollfd wanted {};
@@ -258,8 +262,8 @@ std::shared_ptr<void> await_pipe(const fs::path& path) {
         while (ready < 0 && errno == EINTR);
     if (ready == 0) throw std::runtime_error(name + ": nothing came through this pipe for 5 s");
     // This end also writes, so the next open for reading does not block.
-    return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(reader,
-                                                                                               open_end(O_RDWR));
+    return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(
+        reader, open_end(O_RDWR));
 }
 
 std::FILE* open_to_read(const fs::path& path) {

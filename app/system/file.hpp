@@ -1,5 +1,5 @@
-// Files as the operating system has them: locked, synced, renamed, told apart. The files that the program saves are
-// made of these in document/atomic_file.hpp.
+// Files as the operating system has them: locked, synced, renamed, told apart. The files that the program
+// saves are made of these in document/atomic_file.hpp.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ class SystemFile {
     explicit operator bool() const { return handle_ != none; }
     void close();
     bool write(std::string_view bytes);
-    /// Locks it until it is closed, or the program ends in whatever way; false if another holder has it. A shared
-    /// lock only keeps out one that is not.
+    /// Locks it until it is closed, or the program ends in whatever way; false if another holder has it. A
+    /// shared lock only keeps out one that is not.
     bool try_lock(bool shared = false);
     /// Whether `path` still names this file.
     bool has_name(const std::filesystem::path& path) const;
@@ -67,8 +67,8 @@ struct FileStamp {
 };
 FileStamp file_stamp(const std::filesystem::path& path);
 
-/// Waits until there is something to read from a named pipe; throws std::runtime_error after 5 s without. Null for
-/// anything else. Release the result once the pipe is opened to read.
+/// Waits until there is something to read from a named pipe; throws std::runtime_error after 5 s without.
+/// Null for anything else. Release the result once the pipe is opened to read.
 [[nodiscard]] std::shared_ptr<void> await_pipe(const std::filesystem::path& path);
 
 /// Opens a file for std::fread; null on failure, with errno.

@@ -7,8 +7,8 @@ std::unique_ptr<FileLock> FileLock::take(const std::filesystem::path& path) {
     for (int i = 0; i < tries; ++i) {
         SystemFile file = SystemFile::open_or_create(path);
         if (!file || !file.try_lock()) return nullptr;
-        // The last holder may have removed the file since it was opened: the lock is then on a file that nobody else
-        // can find.
+        // The last holder may have removed the file since it was opened: the lock is then on a file that
+        // nobody else can find.
         if (file.has_name(path)) return std::unique_ptr<FileLock>(new FileLock(path, std::move(file)));
     }
     return nullptr;
