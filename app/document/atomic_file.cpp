@@ -82,13 +82,15 @@ class AtomicFile::Beside {
     Beside(const fs::path& target, const fs::path& folder) : target_(target) {
         // A killed program with the same process ID may have left a file of this name.
         constexpr int tries = 1000;
+        std::error_code ignored;
         for (int i = 0; i < tries && !file_; ++i) {
             name_ = temporary_name(folder);
             file_ = SystemFile::create(name_);
             if (!file_ && last_error() != std::errc::file_exists) break;
             // Until it is locked, another program may mistake it for a leftover and delete it.
             const bool taken = file_ && !file_.try_lock() && last_error() == std::errc::operation_would_block;
-            if (file_ && (taken || !file_.has_name(name_))) file_.close();
+            const bool gone = file_ && !fs::exists(name_, ignored);
+            if (taken || gone) file_.close();
         }
         require(static_cast<bool>(file_));
     }

@@ -90,7 +90,10 @@ void Workspace::forget_pasts() {
     ui.incident.reset();
     const auto parts = document.parts();
     for (const auto& [name, part] : parts)
-        if (std::shared_ptr<const Part> rest = part->without_past()) document.set(name, std::move(rest));
+        if (const std::shared_ptr<const Part> rest = part->without_past()) {
+            if (saved.parts().contains(name) && saved.parts().at(name) == part) saved.set(name, rest);
+            document.set(name, rest);
+        }
 }
 
 void Workspace::pass_change() {

@@ -92,7 +92,8 @@ class ChildProcess::Running {
     Running(const std::string& name, const std::vector<std::string>& command, std::FILE* complaints) {
         SECURITY_ATTRIBUTES inherited{sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
         HANDLE reads = nullptr;
-        if (::CreatePipe(&reads, &input_, &inherited, 1 << 16) == 0) fail_to_start(name);
+        if (complaints == nullptr || ::CreatePipe(&reads, &input_, &inherited, 1 << 16) == 0)
+            fail_to_start(name);
         ::SetHandleInformation(input_, HANDLE_FLAG_INHERIT, 0);
         const HANDLE nowhere = ::CreateFileW(L"NUL", GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
                                              &inherited, OPEN_EXISTING, 0, nullptr);
@@ -119,7 +120,11 @@ class ChildProcess::Running {
     }
     ~Running() {
         close_input();
-        if (!ended()) ::TerminateProcess(process_, 1);
+        if (!ended()) {
+            ::TerminateProcess(process_, 1);
+            constexpr DWORD patience = 5000;  // ms, until its files are closed
+            ::WaitForSingleObject(process_, patience);
+        }
         ::CloseHandle(process_);
     }
     Running(const Running&) = delete;

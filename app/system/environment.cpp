@@ -21,9 +21,8 @@
 #endif
 
 #ifdef __MINGW32__
-/// Its libstdc++ makes paths of narrow text by mbrtowc, and that of Windows' C library knows no UTF-8; the
-/// linker calls this one instead. Outside the first plane, the first byte gives one half of a pair and the
-/// other three the second.
+/// libstdc++ converts narrow paths with mbrtowc, and msvcrt's does not know UTF-8; the linker calls this one
+/// instead. Outside the first plane, the first byte gives one half of a pair and the other three the second.
 extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t size,
                                       std::mbstate_t* state) {
     constexpr std::size_t invalid = static_cast<std::size_t>(-1), incomplete = static_cast<std::size_t>(-2);
@@ -76,6 +75,20 @@ std::string utf8(const wchar_t* text) {
 constexpr std::pair<const char*, const char*> user_settings{"APPDATA", "tendril"};
 constexpr int end_signals[]{SIGINT, SIGTERM, SIGBREAK};
 
+/// Once its console or its user's session is closed, Windows ends a program as soon as the signal's handler
+/// returns.
+void wait_when_closed() {
+    const auto wait = [](DWORD kind) -> BOOL {
+        constexpr DWORD to_save = 4000;  // ms; Windows waits for five seconds
+        if (kind == CTRL_CLOSE_EVENT || kind == CTRL_LOGOFF_EVENT || kind == CTRL_SHUTDOWN_EVENT) {
+            std::raise(SIGTERM);
+            ::Sleep(to_save);
+        }
+        return FALSE;
+    };
+    ::SetConsoleCtrlHandler(wait, TRUE);
+}
+
 bool local_parts(std::time_t time, std::tm& parts) {
     return ::localtime_s(&parts, &time) == 0;
 }
@@ -122,6 +135,8 @@ namespace {
 constexpr std::pair<const char*, const char*> user_settings{"HOME", ".config/tendril"};
 constexpr int end_signals[]{SIGINT, SIGTERM, SIGHUP};
 
+void wait_when_closed() {}
+
 bool local_parts(std::time_t time, std::tm& parts) {
     return ::localtime_r(&time, &parts) != nullptr;
 }
@@ -152,6 +167,7 @@ std::string home_folder() {
 
 void handle_end_signals(void (*handler)(int)) {
     for (const int each : end_signals) std::signal(each, handler);
+    wait_when_closed();
 }
 
 fs::path config_folder() {

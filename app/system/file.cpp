@@ -5,6 +5,8 @@
 #include <string>
 
 #ifdef _WIN32
+#include <winsock2.h>  // WSAEWOULDBLOCK
+
 #include <windows.h>
 #else
 #include <fcntl.h>
@@ -93,7 +95,9 @@ bool SystemFile::try_lock(bool shared) {
     OVERLAPPED far_away{};
     far_away.OffsetHigh = 1 << 30;
     const DWORD kind = LOCKFILE_FAIL_IMMEDIATELY | (shared ? 0 : LOCKFILE_EXCLUSIVE_LOCK);
-    return ::LockFileEx(handle_of(handle_), kind, 0, 1, 0, &far_away) != 0;
+    if (::LockFileEx(handle_of(handle_), kind, 0, 1, 0, &far_away) != 0) return true;
+    if (::GetLastError() == ERROR_LOCK_VIOLATION) ::SetLastError(WSAEWOULDBLOCK);  // as other systems say it
+    return false;
 }
 
 bool SystemFile::has_name(const fs::path& path) const {
@@ -110,7 +114,16 @@ bool SystemFile::sync() {
 }
 
 bool replace_file(const fs::path& from, const fs::path& to) {
-    return ::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) != 0;
+    // While somebody reads the old file, a virus scanner say, Windows does not let it go.
+    constexpr DWORD pause = 20, tries = 50;  // ms; a second in all
+    for (DWORD i = 0; i < tries; ++i) {
+        if (::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) != 0)
+            return true;
+        const DWORD why = ::GetLastError();
+        if (why != ERROR_ACCESS_DENIED && why != ERROR_SHARING_VIOLATION) return false;
+        if (i + 1 < tries) ::Sleep(pause);
+    }
+    return false;
 }
 
 bool may_write(const fs::path& path) {
@@ -130,7 +143,7 @@ FileStamp file_stamp(const fs::path& path) {
 }
 
 std::shared_ptr<void> await_pipe(const fs::path&) {
-    return nullptr;  // pipes have no place among the files
+    return nullptr;  // named pipes are not supported here
 }
 
 std::FILE* open_to_read(const fs::path& path) {

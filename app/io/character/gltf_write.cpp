@@ -142,15 +142,16 @@ void add_worn(const Worn& worn, const humanoid::Skeleton& skeleton, const std::v
                           {"primitives", Json::array({{{"attributes", attributes},
                                                        {"indices", file.add_indices(mesh.indices)},
                                                        {"material", material}}})}});
-        Json& all = file.json["nodes"];
+        const std::size_t made = meshes.size() - 1;
         if (rigid) {
-            all[nodes[joints.front()]]["mesh"] = meshes.size() - 1;
+            file.json["nodes"][nodes[joints.front()]]["mesh"] = made;
             continue;
         }
+        Json& skins = file.json["skins"];  // may be new, and a new member moves the others
+        Json& all = file.json["nodes"];
         if (file.json.contains("scenes"))
             file.json["scenes"][file.json.value("scene", std::size_t{0})]["nodes"].push_back(all.size());
-        Json& skins = file.json["skins"];
-        all.push_back({{"name", mesh.name + " mesh"}, {"mesh", meshes.size() - 1}, {"skin", skins.size()}});
+        all.push_back({{"name", mesh.name + " mesh"}, {"mesh", made}, {"skin", skins.size()}});
         skins.push_back(std::move(skin));
     }
 }
@@ -274,6 +275,9 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
         all.push_back({{"name", each.name}});
         set_transform(all.back(), rest);
     }
+    // A reader takes whole trees of a file without skins, and of one with a skin only joints and what is
+    // animated.
+    const std::size_t keyed = file.json.contains("skins") ? nodes.size() - worn.nodes.size() : 0;
     add_worn(worn, character.skeleton, nodes, character.scale, file);
     const Json animations = file.json.value("animations", Json::array());
     file.json.erase("animations");
@@ -292,7 +296,7 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
             set_transform(json, rest);
         }
     }
-    for (std::size_t i = nodes.size() - worn.nodes.size(); i < nodes.size(); ++i)
+    for (std::size_t i = worn.nodes.empty() ? nodes.size() : keyed; i < nodes.size(); ++i)
         if (animated.insert(nodes[i]).second) add_rest(character, i, nodes[i], animation);
     keep_animated(animations, character, nodes, animated, animation);
     const auto same = std::find_if(character.clips.begin(), character.clips.end(),

@@ -36,8 +36,8 @@ struct WornMesh {
     std::vector<std::uint32_t> indices{};
 };
 
-/// What a character wears and holds: further nodes, each after its parent, and their meshes. Clips move them
-/// as nodes after the character's own.
+/// Extra nodes for what a character wears and holds, parents first, and their meshes. In a clip they follow the
+/// character's own nodes.
 struct Worn {
     std::vector<humanoid::Node> nodes{};
     std::vector<WornMesh> meshes{};

@@ -18,7 +18,8 @@ namespace {
 void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
     ImGui::PushID(each.name.c_str());
     const std::string kind = attachment_kinds.title(each.kind);
-    reading(each.name.c_str(), "%son %s", each.name.starts_with(kind) ? "" : (kind + ' ').c_str(),
+    reading(each.name.c_str(), "%son %s",
+            (each.name + ' ').starts_with(kind + ' ') ? "" : (kind + ' ').c_str(),
             panel.part.called(*panel.part.skeleton().find(each.node)).c_str());
     if (row_button("Remove", 1, true, "Takes it off the character"))
         panel.emit("humanoid.detach", {{"name", each.name}});

@@ -137,6 +137,8 @@ void WornMotion::pose(const ShownPose& shown, std::span<rig::Transform> nodes) c
         Placement above = shown.placed[chain.on];
         for (std::size_t i = 0; i < chain.count; ++i) {
             const dvec3& at = particles[chain.first + i * chain.step];
+            if (!(std::abs(glm::determinant(above.axes)) > 1e-12))
+                break;  // a bone scaled to nothing hides it
             const glm::dmat3 into = glm::inverse(above.axes);
             rig::Transform& local = nodes[chain.node + i];
             local = {.translation = into * (at - above.position)};

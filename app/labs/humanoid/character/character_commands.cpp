@@ -531,6 +531,7 @@ void export_shown(Workspace& workspace, const Arguments& given) {
             written_text(paths.front()) + (paths.size() > 1 ? " and the others" : std::string()) + ". " +
             sum_text(reports) + worn_text(humanoid_part(workspace), true, takes_worn(path)));
     }
+    if (ends_as_export(path)) workspace.writes().check({path}, OutputKind::Motion);  // before it is simulated
     const ExportReport report = export_one(workspace, given, clip, path);
     const std::string which = one_of_clips_text(character, character.clips[clip].name);
     workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text() +

@@ -12,13 +12,13 @@
 
 namespace tendril::app {
 
-/// What the character wears and holds, with the memory that its simulation needs.
+/// Extra nodes and meshes for what the character wears, and scratch memory to simulate it.
 struct Wardrobe {
     rope::Workspace& ropes;
     Worn worn{};
 };
-/// The clip as displayed, played once from its start: an export writes it. Fills the wardrobe, if there is
-/// one, and moves its nodes.
+/// The clip as displayed, played once from its start: an export writes it. With a wardrobe, dresses the
+/// character and animates what it wears.
 humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate,
                              Wardrobe* wardrobe = nullptr);
 /// The ground on which foot IK puts the feet; null without foot IK.
