@@ -7,6 +7,7 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/io/posed.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -76,6 +77,18 @@ TEST_F(HumanoidAttach, IsInAnExportWithWhatTheHandsHold) {
             << seconds << ": put on anew, it folds a little differently";
         EXPECT_LT(off("rifle", shown_pose(workspace).hold->object.position), 1e-4) << seconds;
     }
+}
+
+/// A reader takes whole trees of it, and joints alone once what hangs there has brought a skin.
+TEST_F(HumanoidAttach, IsInAnExportOfAFileWithoutSkins) {
+    const std::filesystem::path file = test::found_path("glb_no_skin.glb");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+    run("humanoid.load", {{"path", file.string()}});
+    run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}, {"name", "tail"}});
+    const std::string path = write("dressed.glb", "");
+    const std::size_t bare = part().skeleton().size();
+    run("humanoid.export", {{"path", path}});
+    EXPECT_EQ(read_character(path).skeleton.size(), bare + body("tail").count);
 }
 
 /// One wind for everything that hangs. It is of the scene: attachments and characters come and go in it.
