@@ -7,7 +7,7 @@
 #include "app/app.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
-#include "app/system/clipboard.hpp"
+#include "app/system/environment.hpp"
 #include "app/system/file.hpp"
 #include "app/video_take.hpp"
 

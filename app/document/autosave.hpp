@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/system/file_lock.hpp"
+#include "app/system/file.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {

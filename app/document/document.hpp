@@ -36,7 +36,7 @@ class Part {
     virtual std::shared_ptr<const Part> after_undo() const { return nullptr; }
     /// `then`, the part at another moment, with this part's selection and view, which rewinding keeps.
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
-    /// The part without what came from a forgotten past and is not saved either; null if it has nothing of it.
+    /// The part without what only its past explains; null if there is nothing to drop.
     virtual std::shared_ptr<const Part> without_past() const { return nullptr; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;

@@ -4,20 +4,23 @@
 #include <cstdlib>
 #include <ctime>
 #include <initializer_list>
+#include <stdexcept>
 #include <utility>
 
 #ifdef _WIN32
-#include <cwchar>
-
 #include <windows.h>
-
+// then
 #include <fcntl.h>
 #include <io.h>
 #include <shellapi.h>
 
 #include <cstdio>
+#include <cstring>
+#include <cwchar>
 #else
 #include <unistd.h>
+
+#include "app/system/child_process.hpp"
 #endif
 
 #ifdef __MINGW32__
@@ -34,27 +37,15 @@ extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t
         *to = static_cast<wchar_t>(std::exchange(*state, 0));
         return 3;
     }
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(from[i]); };
-    const std::size_t length = byte(0) < 0x80   ? 1
-                               : byte(0) < 0xc2 ? 0
-                               : byte(0) < 0xe0 ? 2
-                               : byte(0) < 0xf0 ? 3
-                               : byte(0) < 0xf5 ? 4
-                                                : 0;
-    if (length == 0) return invalid;
-    if (size < length) return incomplete;
-    unsigned code = length == 1 ? byte(0) : byte(0) & (0xffu >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0) != 0x80) return invalid;
-        code = code << 6 | (byte(i) & 0x3fu);
-    }
-    if (length == 4 && state != nullptr) {
-        *to = static_cast<wchar_t>(0xd800 + ((code - 0x10000) >> 10));
-        *state = static_cast<std::mbstate_t>(0xdc00 + (code & 0x3ff));
-        return 1;
-    }
-    *to = static_cast<wchar_t>(code);
-    return code == 0 ? 0 : length;
+    const auto first = static_cast<unsigned char>(*from);
+    const int length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    if (size < static_cast<std::size_t>(length)) return incomplete;
+    wchar_t units[2];
+    const int count = ::MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, from, length, units, 2);
+    if (count == 0 || (count == 2 && state == nullptr)) return invalid;
+    *to = units[0];
+    if (count == 2) *state = units[1];
+    return count == 2 ? 1 : units[0] == 0 ? 0 : static_cast<std::size_t>(length);
 }
 #endif
 
@@ -129,11 +120,39 @@ std::string home_folder() {
     return {};
 }
 
+void copy_png(std::string_view png) {
+    const UINT format = ::RegisterClipboardFormatA("PNG");  // as browsers and office programs call it
+    const HGLOBAL memory = ::GlobalAlloc(GMEM_MOVEABLE, png.size());
+    if (memory == nullptr || ::OpenClipboard(nullptr) == 0) {
+        ::GlobalFree(memory);
+        throw std::runtime_error("cannot copy the picture: another program holds the clipboard");
+    }
+    std::memcpy(::GlobalLock(memory), png.data(), png.size());
+    ::GlobalUnlock(memory);
+    ::EmptyClipboard();
+    const bool taken = ::SetClipboardData(format, memory) != nullptr;  // the clipboard then owns the memory
+    ::CloseClipboard();
+    if (taken) return;
+    ::GlobalFree(memory);
+    throw std::runtime_error("cannot copy the picture: the clipboard does not take it");
+}
+
 #else
 namespace {
 
 constexpr std::pair<const char*, const char*> user_settings{"HOME", ".config/tendril"};
 constexpr int end_signals[]{SIGINT, SIGTERM, SIGHUP};
+
+constexpr double max_copy_end = 10.0;  ///< seconds; both programs fork and end at once
+
+std::vector<std::string> clipboard_command() {
+    const std::string wayland = find_program("wl-copy").string(), x11 = find_program("xclip").string();
+    const bool in_wayland = !environment_variable("WAYLAND_DISPLAY").empty();
+    if (!wayland.empty() && (in_wayland || x11.empty())) return {wayland, "--type", "image/png"};
+    if (!x11.empty()) return {x11, "-selection", "clipboard", "-t", "image/png"};
+    throw std::runtime_error(std::string("to copy a picture, install ") +
+                             (in_wayland ? "wl-clipboard" : "xclip"));
+}
 
 void wait_when_closed() {}
 
@@ -162,6 +181,12 @@ bool errors_on_terminal() {
 
 std::string home_folder() {
     return environment_variable("HOME");
+}
+
+void copy_png(std::string_view png) {
+    ChildProcess program(clipboard_command());
+    program.write(png);
+    program.finish(max_copy_end);
 }
 #endif
 

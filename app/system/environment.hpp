@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tendril::app {
@@ -25,11 +26,15 @@ std::string environment_variable(const char* name);
 /// Whether stderr is a terminal that takes escape sequences.
 bool errors_on_terminal();
 
-/// The folder that "~" stands for; empty if there is none or no such custom.
+/// The folder that "~" stands for; empty where "~" means nothing.
 std::string home_folder();
 /// Where this user's settings and autosaves are kept: below XDG_CONFIG_HOME if that is set, else in ~/.config
 /// or, on Windows, in AppData\Roaming. Empty if nothing says where.
 std::filesystem::path config_folder();
+
+/// Puts a PNG file's bytes on the clipboard; text goes through the window's own. On Linux wl-copy or xclip
+/// does it. Throws std::runtime_error if that is not possible, naming the program to install.
+void copy_png(std::string_view png);
 
 /// Unix time as strftime's `format` has it, in this machine's time zone; empty if it cannot be told.
 std::string local_time(std::int64_t seconds, const char* format);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -19,7 +20,7 @@ class SystemFile {
   public:
     /// A new file, to be written. Fails if `path` exists.
     static SystemFile create(const std::filesystem::path& path);
-    /// A file to be locked, made if it is missing; only this user may read it.
+    /// A file to be locked, made if it is missing. On Linux only this user may read it.
     static SystemFile open_or_create(const std::filesystem::path& path);
     /// An existing file. Follows no symbolic link and never waits.
     static SystemFile open(const std::filesystem::path& path);
@@ -53,7 +54,27 @@ class SystemFile {
     std::intptr_t handle_ = none;
 };
 
-/// Renames a file over another and syncs their folder. Both may be open here.
+/// A lock that the operating system releases when its program ends, even if it is killed or crashes. A
+/// process ID would not do: IDs are reused, and containers count from 1.
+class FileLock {
+  public:
+    /// Creates and locks the file; null if another holder has it or it cannot be created.
+    static std::unique_ptr<FileLock> take(const std::filesystem::path& path);
+    /// Whether any program holds it, including this one.
+    static bool is_held(const std::filesystem::path& path);
+
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+    /// Removes the file.
+    ~FileLock();
+
+  private:
+    FileLock(std::filesystem::path path, SystemFile file) : path_(std::move(path)), file_(std::move(file)) {}
+    std::filesystem::path path_;
+    SystemFile file_;
+};
+
+/// Renames a file over another and syncs their folder. `from` may be open here.
 bool replace_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Whether an existing file may be written to; true for a missing one.

@@ -127,6 +127,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     const humanoid::LintReport before = lint(skeleton, map, what.original, {.rate = what.rate}),
                                after = lint(skeleton, map, bare, {.rate = what.rate, .ground = what.ground});
     report.rate = what.rate;
+    report.worn = names(what.worn.meshes, [](const WornMesh& each) { return each.name; });
     if (has_origin) report.unit = what.character.scale;
     report.on_ground = what.ground != nullptr && what.ground->kind() != humanoid::GroundKind::Flat;
     report.findings = after.findings.size();

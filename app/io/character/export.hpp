@@ -25,6 +25,7 @@ struct ExportReport {
     std::size_t findings = 0;                 ///< the lint's findings in the written clip
     bool on_ground = false;                   ///< whether the lint used a slope, stairs, hills or a mesh
     std::vector<std::string> new_findings{};  ///< findings that the original lacks
+    std::vector<std::string> worn{};          ///< names of the worn and held things that were written
 
     /// "67 frames at 60 fps; read back within 0.0001 mm, worst at LeftHand; feet skate 3.0 mm, before fixes
     /// and IK 12.1 mm; 7 findings in the written clip, 2 of them new: LeftLowerLeg pops by 12 degrees ..."

@@ -95,7 +95,7 @@ void add_humanoid_look_commands(CommandTable& table) {
              workspace.ui.copied =
                  humanoid_code(humanoid_part(workspace), humanoid_runtime(workspace).solvers);
              workspace.toast("The character is on the clipboard as C++" +
-                             worn_text(humanoid_part(workspace), false, false));
+                             left_out_text(humanoid_part(workspace), false));
          }});
 }
 

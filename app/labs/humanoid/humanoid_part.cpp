@@ -181,11 +181,11 @@ Selection selection_in(const humanoid::Skeleton& skeleton, const Selection& sele
     return selection_of(names, skeleton);
 }
 
-std::string worn_text(const HumanoidPart& part, bool held, bool written) {
+std::string left_out_text(const HumanoidPart& part, bool held) {
     std::vector<std::string> all =
         names(part.attachments.list, [](const Attachment& each) { return each.name; });
     if (held && part.ik.hold) all.push_back(held_kinds.title(part.ik.hold->kind));
-    return all.empty() ? "" : (written ? ". With: " : ". Left out: ") + name_list_text(all);
+    return all.empty() ? "" : ". Left out: " + name_list_text(all);
 }
 
 Json save_selection(const Selection& selection, const humanoid::Skeleton& skeleton) {

@@ -145,9 +145,8 @@ std::vector<std::string> bone_names(auto is) {
 
 /// The selected names, in skeleton order.
 std::vector<std::string> names_of(const Selection& selection, const humanoid::Skeleton& skeleton);
-/// ". With: cape, rifle" or ". Left out: cape, rifle", after the message of an export; empty if there is
-/// neither.
-std::string worn_text(const HumanoidPart& part, bool held, bool written);
+/// ". Left out: cape, rifle" after the message of an export of bones alone; empty if there is neither.
+std::string left_out_text(const HumanoidPart& part, bool held);
 /// The active node's name; empty if nothing is selected.
 std::string active_name(const Selection& selection, const humanoid::Skeleton& skeleton);
 

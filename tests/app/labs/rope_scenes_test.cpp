@@ -182,6 +182,10 @@ TEST_F(RopeCollisionTest, AllIsEveryRopeAndClothAndUndoneInOneStep) {
     EXPECT_EQ(state()["collisions"], Json::array());
     collide("other", "all");
     EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}, {"other", "other"}, {"other", "sail"}}));
+    run("rope.remove", {{"name", "line"}});
+    run("rope.add", {{"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"name", "third"}});
+    collide("third", "all");
+    EXPECT_EQ(lab().state(reopened())["collisions"], state()["collisions"]) << "third has the slot of line";
 }
 
 TEST_F(RopeCollisionTest, TheInspectorHasAButtonForItselfAndOneForAll) {

@@ -496,6 +496,13 @@ bool takes_worn(const std::filesystem::path& path) {
     return lower_case(path.extension().string()) != ".bvh";
 }
 
+/// ". With: cape, rifle" or ". Left out: cape, rifle".
+std::string worn_text(const HumanoidPart& part, const ExportReport& report,
+                      const std::filesystem::path& path) {
+    if (!takes_worn(path)) return left_out_text(part, true);
+    return report.worn.empty() ? "" : ". With: " + name_list_text(report.worn);
+}
+
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,
                         const std::filesystem::path& path) {
     const HumanoidPart& part = humanoid_part(workspace);
@@ -529,13 +536,13 @@ void export_shown(Workspace& workspace, const Arguments& given) {
             reports.push_back(export_one(workspace, given, i, paths[i]));
         return workspace.toast(
             written_text(paths.front()) + (paths.size() > 1 ? " and the others" : std::string()) + ". " +
-            sum_text(reports) + worn_text(humanoid_part(workspace), true, takes_worn(path)));
+            sum_text(reports) + worn_text(humanoid_part(workspace), reports.front(), path));
     }
     if (ends_as_export(path)) workspace.writes().check({path}, OutputKind::Motion);  // before it is simulated
     const ExportReport report = export_one(workspace, given, clip, path);
     const std::string which = one_of_clips_text(character, character.clips[clip].name);
     workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text() +
-                    worn_text(humanoid_part(workspace), true, takes_worn(path)));
+                    worn_text(humanoid_part(workspace), report, path));
 }
 
 std::vector<std::string> fault_names() {

@@ -89,6 +89,7 @@ TEST_F(HumanoidAttach, IsInAnExportOfAFileWithoutSkins) {
     const std::size_t bare = part().skeleton().size();
     run("humanoid.export", {{"path", path}});
     EXPECT_EQ(read_character(path).skeleton.size(), bare + body("tail").count);
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "With: tail"));
 }
 
 /// One wind for everything that hangs. It is of the scene: attachments and characters come and go in it.
