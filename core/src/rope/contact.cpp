@@ -20,6 +20,7 @@ namespace {
 
 using glm::dvec3;
 
+/// A way is cut into so many steps at most; a bar of 6 mm is then found at up to 200 m/s and 1/240 s.
 constexpr double max_sweep_steps = 64.0;
 
 struct Bounds {
