@@ -18,7 +18,7 @@ constexpr double penetration_tolerance = 1e-6;       ///< metres inside that req
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
 /// Steps in which normals follow the features: at colliders thinner than a link is long they could circle.
 constexpr int following_steps = 5;
-constexpr double unmeasured = 1e30;                  ///< metres; not yet measured
+constexpr double unmeasured = 1e30;  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double min_slip = 1e-7;
 
@@ -199,8 +199,8 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
         // another one. If it did not touch the plane, it may have gone round.
         if (!s_.progress.moved || (plane.active && (rests() || plane.gap <= -thick))) continue;
         dvec3 at = node.x;
-        const SurfaceDistance surface = fast ? moving.sweep(start, at, radius_, local_.done.work)
-                                             : surface_distance(*moving.shape, at);
+        const SurfaceDistance surface =
+            fast ? moving.sweep(start, at, radius_, local_.done.work) : surface_distance(*moving.shape, at);
         plane.normal = surface.normal;
         plane.gap = dot(surface.normal, node.x - at) + surface.distance - radius_;
         plane.point = node.x - plane.gap * surface.normal;
@@ -311,7 +311,8 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
         const bool moved = s_.progress.moved;
         const double reach = radius_ + touch_distance;
-        const Scratch::Moving::Segment now{a, b}, start = start_of(contact.bond, moving),
+        const Scratch::Moving::Segment now{a, b},
+            start = start_of(contact.bond, moving),
             free{scratch_.base[particle(contact.bond)], scratch_.base[particle(contact.bond + 1)]};
         std::optional<Scratch::Moving::At> at =
             moving.first_touch(start, moved ? now : free, radius_, local_.done.work);
