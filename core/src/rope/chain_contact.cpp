@@ -16,7 +16,9 @@ using glm::dvec3;
 constexpr double allowed_depth = 1e-7;               ///< metres inside that are harmless
 constexpr double penetration_tolerance = 1e-6;       ///< metres inside that require another step
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
-constexpr double unmeasured = 1e30;                  ///< metres; not yet measured
+/// Steps in which normals follow the features: at colliders thinner than a link is long they could circle.
+constexpr int following_steps = 5;
+constexpr double unmeasured = 1e30;  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double min_slip = 1e-7;
 
@@ -25,6 +27,10 @@ dvec3 tangential(const dvec3& v, const dvec3& normal) {
 }
 
 }  // namespace
+
+bool ChainNewton::rests() const {
+    return s_.progress.steps_taken > following_steps && !s_.link_contacts.empty();
+}
 
 /// The colliders near the chunk of particle `i`; the search for the chunk starts at `chunk`.
 std::span<const IslandScratch::Near> ChainNewton::near_of(std::uint32_t i, std::uint32_t& chunk) const {
@@ -96,18 +102,23 @@ bool ChainNewton::find(std::uint32_t number) {
     return !s_.contacts.empty();
 }
 
-/// Whether a link between two points touches, or very nearly does.
-bool ChainNewton::link_touches(const ContactScratch::LinkContact& contact, const dvec3& a, const dvec3& b,
-                               bool moved) const {
+/// A link at the start of the substep, as seen from a collider, which has moved since.
+Scratch::Moving::Segment ChainNewton::start_of(std::uint32_t bond, const Scratch::Moving& moving) const {
+    const dvec3 a = state_.position[particle(bond)], b = state_.position[particle(bond + 1)];
+    return {a + moving.move_at(a), b + moving.move_at(b)};
+}
+
+/// Whether a link touches, or very nearly does, on its way to a position.
+bool ChainNewton::link_touches(const ContactScratch::LinkContact& contact,
+                               const std::vector<dvec3>& to) const {
+    const Scratch::Moving::Segment end{to[particle(contact.bond)], to[particle(contact.bond + 1)]};
+    const double near = radius_ + touch_distance;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        const dvec3 from = moved ? a : a + moving.move_at(a),
-                    along = (moved ? b : b + moving.move_at(b)) - from;
-        const double near = radius_ + touch_distance;
-        if (moving.far_from(from + 0.5 * along, near + 0.5 * detail::length(along))) continue;
-        local_.done.work += detail::max_line_samples;
-        const std::optional<double> at = detail::nearest_between(*moving.shape, from, from + along, near);
-        if (at && surface_distance(*moving.shape, from + *at * along).distance < near) return true;
+        std::uint64_t& work = local_.done.work;
+        if (moving.first_touch(start_of(contact.bond, moving), end, radius_, work)) return true;
+        const auto at = moving.nearest(end, near, work);
+        if (at && at->surface.distance < near) return true;
     }
     return false;
 }
@@ -126,12 +137,9 @@ bool ChainNewton::touches() const {
             if (surface_distance(*moving.shape, from).distance < near) return true;
         }
     }
-    for (const ContactScratch::LinkContact& contact : s_.link_contacts) {
-        const std::uint32_t i = particle(contact.bond), j = particle(contact.bond + 1);
-        if (link_touches(contact, state_.position[i], state_.position[j], false)) return true;
-        if (link_touches(contact, scratch_.base[i], scratch_.base[j], true)) return true;
-    }
-    return false;
+    return std::ranges::any_of(s_.link_contacts, [&](const ContactScratch::LinkContact& contact) {
+        return link_touches(contact, state_.position) || link_touches(contact, scratch_.base);
+    });
 }
 
 bool ChainNewton::inside() const {
@@ -144,11 +152,9 @@ bool ChainNewton::inside() const {
             if (surface_distance(*moving.shape, x).distance < radius_ - allowed_depth) return true;
         }
     }
-    for (const ContactScratch::LinkContact& contact : s_.link_contacts) {
-        const std::uint32_t i = particle(contact.bond), j = particle(contact.bond + 1);
-        if (link_touches(contact, scratch_.x[i], scratch_.x[j], true)) return true;
-    }
-    return false;
+    return std::ranges::any_of(s_.link_contacts, [&](const ContactScratch::LinkContact& contact) {
+        return link_touches(contact, scratch_.x);
+    });
 }
 
 /// If a particle's free path would pass through a surface, stops it on the side that it came from.
@@ -156,25 +162,15 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
     plane.by = moving.move_at(state_.position[i]);
-    dvec3 at = state_.position[i] + plane.by;  // relative to the collider
-    const dvec3 from = at, path = scratch_.base[i] - from;
-    const double path_length = detail::length(path), step = 0.5 * moving.size + radius_;
-    SurfaceDistance surface = surface_distance(*moving.shape, at);
-    plane.active = surface.distance < radius_ + touch_distance;
-    if (path_length > step && !plane.active && surface.distance < path_length + radius_) {
-        const int samples = static_cast<int>(std::min(64.0, std::ceil(path_length / std::max(step, 1e-9))));
-        local_.done.work += static_cast<std::uint64_t>(samples);
-        for (int k = 1; k <= samples && !plane.active; ++k) {
-            const dvec3 sample = from + (static_cast<double>(k) / samples) * path;
-            const SurfaceDistance there = surface_distance(*moving.shape, sample);
-            if (there.distance >= radius_) continue;
-            at = sample;
-            surface = there;
-            plane.active = true;
-        }
+    const dvec3 from = state_.position[i] + plane.by, base = scratch_.base[i];  // relative to the collider
+    Scratch::Moving::At at{0.0, from, surface_distance(*moving.shape, from)};
+    plane.active = at.surface.distance < radius_ + touch_distance;
+    if (!plane.active) {
+        const auto touch = moving.first_touch({from, from}, {base, base}, radius_, local_.done.work);
+        if (touch) at = *touch, plane.active = true;
     }
-    plane.normal = surface.normal;
-    plane.point = at - (surface.distance - radius_) * surface.normal;
+    plane.normal = at.surface.normal;
+    plane.point = at.point - (at.surface.distance - radius_) * at.surface.normal;
 }
 
 /// Whether anything changed that requires another step.
@@ -194,16 +190,20 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
         const Scratch::Moving& moving = collider(plane.collider);
         ++local_.done.work;
         plane.gap = unmeasured;
-        if (s_.progress.moved && !plane.active && moving.far_from(node.x, radius_)) continue;
+        const dvec3 start = state_.position[particle(contact.node)], way = node.x - start - plane.by;
+        const double thick = 0.5 * moving.size + radius_;
+        const bool fast = !plane.active && std::abs(way.x) + std::abs(way.y) + std::abs(way.z) > thick;
+        if (s_.progress.moved && !plane.active && !fast && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
         // A particle far behind a plane that it touched has passed through: the surface now nearest is
         // another one. If it did not touch the plane, it may have gone round.
-        if (s_.progress.moved && (!plane.active || plane.gap > -0.5 * moving.size - radius_)) {
-            const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
-            plane.normal = surface.normal;
-            plane.gap = surface.distance - radius_;
-            plane.point = node.x - plane.gap * surface.normal;
-        }
+        if (!s_.progress.moved || (plane.active && (rests() || plane.gap <= -thick))) continue;
+        dvec3 at = node.x;
+        const SurfaceDistance surface =
+            fast ? moving.sweep(start, at, radius_, local_.done.work) : surface_distance(*moving.shape, at);
+        plane.normal = surface.normal;
+        plane.gap = dot(surface.normal, node.x - at) + surface.distance - radius_;
+        plane.point = node.x - plane.gap * surface.normal;
     }
 }
 
@@ -297,6 +297,11 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         const double thick = 0.5 * collider(contact.collider).size + radius_;
         effect.gap = dot(effect.normal, a + effect.at * (b - a) - contact.point);
         if (effect.gap < -thick) return true;  // it has passed through
+        if (rests() && !(s_.progress.may_release && effect.multiplier < 0.0)) {
+            apply_link_friction(contact);
+            return effect.gap <
+                   (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance);
+        }
     }
     double deepest =
         was && (!s_.progress.may_release || effect.multiplier >= 0.0) ? touch_distance : -allowed_depth;
@@ -304,28 +309,30 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     effect.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        // The start of the substep as seen from the collider, which has moved since.
-        const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.move_at(a),
-                    by_b = s_.progress.moved ? dvec3(0.0) : moving.move_at(b);
-        const dvec3 from = a + by_a, along = b + by_b - from;
-        if (moving.far_from(from + 0.5 * along, radius_ + touch_distance + 0.5 * detail::length(along)))
-            continue;
-        local_.done.work += detail::max_line_samples;
-        const std::optional<double> at =
-            detail::nearest_between(*moving.shape, from, from + along, radius_ + touch_distance);
+        const bool moved = s_.progress.moved;
+        const double reach = radius_ + touch_distance;
+        const Scratch::Moving::Segment now{a, b},
+            start = start_of(contact.bond, moving),
+            free{scratch_.base[particle(contact.bond)], scratch_.base[particle(contact.bond + 1)]};
+        std::optional<Scratch::Moving::At> at =
+            moving.first_touch(start, moved ? now : free, radius_, local_.done.work);
+        const bool swept = at.has_value();
+        if (!swept) at = moving.nearest(moved ? now : start, reach, local_.done.work);
         if (!at) continue;
-        const dvec3 nearest = from + *at * along;
-        const SurfaceDistance surface = surface_distance(*moving.shape, nearest);
-        const double distance = surface.distance - radius_;
-        const double gap = distance - dot(surface.normal, by_a + *at * (by_b - by_a));
-        if ((s_.progress.moved ? gap : std::min(gap, distance)) >= deepest) continue;
-        deepest = gap;
+        const dvec3 normal = at->surface.normal;
+        const double distance = at->surface.distance - radius_;
+        const dvec3 point = at->point - distance * normal;
+        const double gap = dot(normal, a + at->along * (b - a) - point);
+        double depth = gap;
+        if (!moved) depth = swept ? -1.0 : std::min(gap, distance);
+        if (depth >= deepest) continue;
+        deepest = depth;
         touched = s_.link_colliders[c];
         effect.active = true;
-        effect.normal = surface.normal;
-        effect.at = *at;
+        effect.normal = normal;
+        effect.at = at->along;
         effect.gap = gap;
-        contact.point = nearest - distance * surface.normal;
+        contact.point = point;
     }
     if (!effect.active) {
         effect.multiplier = 0.0;

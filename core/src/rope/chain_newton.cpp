@@ -133,20 +133,24 @@ void ChainNewton::scale_step(double part) {
         scale(s_.bond_effects[c].multiplier, s_.saved_contacts[c]);
 }
 
-/// Whether a link has grown or shrunk too much. `turn`: the largest change of a link's direction, relative
-/// to its length.
+/// Whether a link has grown or shrunk too much, or the chain moved farther than its length and free path.
+/// `turn`: the largest change of a link's direction, relative to its length, or that of the chain.
 bool ChainNewton::has_diverged(double& turn) const {
     bool diverged = false, finite = true;
     turn = 0.0;
+    double whole = detail::length(s_.nodes[0].base - state_.position[particle(0)]);
     for (std::size_t k = 0; k < s_.bonds.size(); ++k) {
         const double rest = s_.bonds[k].rest;
         finite &= std::isfinite(s_.bonds[k].error);
         diverged |= !(std::abs(s_.bonds[k].error) <= max_growth * rest + std::abs(s_.saved[k].error));
         const dvec3 before = s_.saved[k + 1].x - s_.saved[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
         const double squared = std::max({rest * rest, detail::dot(before, before), 1e-18});
+        whole += std::sqrt(squared);
         turn = std::max(turn, detail::dot(now - before, now - before) / squared);
     }
-    turn = finite ? std::sqrt(turn) : std::numeric_limits<double>::infinity();
+    const double shift = detail::length(s_.nodes[0].x - s_.saved[0].x) / whole;
+    diverged |= !(shift <= 1.0);
+    turn = finite ? std::max(shift, std::sqrt(turn)) : std::numeric_limits<double>::infinity();
     return diverged;
 }
 

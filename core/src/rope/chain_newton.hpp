@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "rope/scratch.hpp"
 
@@ -49,9 +50,10 @@ class ChainNewton {
     ContactScratch::Contact& contact_of(std::uint32_t node);
     std::span<const IslandScratch::Near> near_of(std::uint32_t particle, std::uint32_t& chunk) const;
 
-    bool link_touches(const ContactScratch::LinkContact& contact, const glm::dvec3& a, const glm::dvec3& b,
-                      bool moved) const;
+    Scratch::Moving::Segment start_of(std::uint32_t bond, const Scratch::Moving& moving) const;
+    bool link_touches(const ContactScratch::LinkContact& contact, const std::vector<glm::dvec3>& to) const;
     void begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane);
+    bool rests() const;  ///< whether contacts keep their normals
     bool update_contacts();
     void measure_planes(const ContactScratch::Contact& contact);
     void choose_deepest();

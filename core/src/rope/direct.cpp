@@ -112,6 +112,8 @@ void Substep::shorten_steps() {
 /// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
+    // A moving collider must take the chain along.
+    if (scratch_.body_near[chain.body] == Scratch::Nearest::Moving) return;
     const std::array<Member, 1> alone{Member{.chain = number}};
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
     const auto stretch = [&](const std::vector<dvec3>& at) {
@@ -124,15 +126,13 @@ void Substep::shorten_step(std::uint32_t number) {
         return worst;
     };
     const double max_stretch = failed ? fallback_error + stretch(state_.position) : 0.0;
-    // A moving collider must take the chain along.
-    const bool driven = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
     double deepest = -1.0;
     const auto is_bad = [&] {
         if (failed && !(stretch(scratch_.x) <= max_stretch)) return true;
         const Ledger ledger = ledger_of(alone);
         if (ledger.leaves_gain(accepted_gain)) return true;
         if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
-        if (driven || depth_of(chain, scratch_.x) <= penetration_slop) return false;
+        if (depth_of(chain, scratch_.x) <= penetration_slop) return false;
         if (deepest < 0.0) deepest = std::max(penetration_slop, depth_of(chain, state_.position));
         return depth_of(chain, scratch_.x) > deepest;
     };

@@ -62,14 +62,12 @@ void ImplicitStep::find_at_particle(ClothContact contact, double radius, bool fi
 
 void ImplicitStep::find_at_link(ClothContact contact, double radius, bool first) {
     const Scratch::Moving& collider = collider_of(contact);
-    const dvec3 a = scratch_.x[contact.a], b = scratch_.x[contact.b], along = b - a;
     if (scratch_.weight[contact.a] + scratch_.weight[contact.b] == 0.0) return;
-    if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
-    local_.done.work += detail::max_line_samples;
-    const std::optional<double> t = detail::nearest_between(*collider.shape, a, b, radius);
-    if (!t) return;
-    contact.t = *t;
-    add_if_active(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
+    const auto at =
+        collider.nearest({scratch_.x[contact.a], scratch_.x[contact.b]}, radius, local_.done.work);
+    if (!at) return;
+    contact.t = at->along;
+    add_if_active(contact, at->surface, radius, first);
 }
 
 /// Adds a contact that penetrates or pressed before; in the first solve, also if it would on the free path.

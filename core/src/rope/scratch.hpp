@@ -197,6 +197,20 @@ struct Scratch {
         /// `at` back to where it first touches, on the side that it came from.
         SurfaceDistance sweep(const glm::dvec3& was, glm::dvec3& at, double radius,
                               std::uint64_t& work) const;
+        /// A segment, or a particle if both ends are the same, relative to the shape.
+        using Segment = std::array<glm::dvec3, 2>;
+        /// A touch of a segment: the part along it, the point there, and the surface.
+        struct At {
+            double along = 0.0;
+            glm::dvec3 point{0.0};
+            SurfaceDistance surface;
+        };
+        /// Where a segment first touches on its way, between its ends. None if the way is so short that the
+        /// side that it comes from shows at its end.
+        std::optional<At> first_touch(const Segment& from, const Segment& to, double radius,
+                                      std::uint64_t& work) const;
+        /// Where a segment that stands still is nearest, between its ends, if nearer than `reach`.
+        std::optional<At> nearest(const Segment& at, double reach, std::uint64_t& work) const;
         bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0) || spins; }
         /// Whether a ball is entirely beyond the shape's bounds in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
