@@ -46,8 +46,8 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),
-                 max_friction = static_cast<double>(state_.settings.friction) * normal_force;
-    const double part = size > max_friction ? max_friction / size : 1.0;
+                 limit = static_cast<double>(state_.settings.friction) * normal_force;
+    const double part = size > limit ? limit / size : 1.0;
     response.force = normal_force * n + part * friction;
     response.along = k;
     response.across = part * k;

@@ -93,8 +93,8 @@ void ImplicitStep::apply_friction(ClothContact& contact) const {
     dvec3& slip = contact.slip;
     slip = contact.at - contact_point(contact, state_.position) - collider_of(contact).move_at(contact.at);
     slip -= detail::dot(slip, n) * n;
-    const double size = detail::length(slip), max_friction = friction_of(contact) * contact.force;
-    contact.drag = size * stiffness_ > max_friction ? max_friction / size : stiffness_;
+    const double size = detail::length(slip), limit = friction_of(contact) * contact.force;
+    contact.drag = size * stiffness_ > limit ? limit / size : stiffness_;
 }
 
 /// The contact's share of the potential.
