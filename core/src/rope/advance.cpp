@@ -240,7 +240,8 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     const auto is_due = [&] { return left >= substep * (1.0 - rounding); };
     Workspace::Parts& parts = *workspace.parts_;
     const bool steps = is_due();
-    if (steps) parts.prepare(state_);                   // allocates, so this comes before any change
+    if (steps) parts.prepare(state_);  // allocates, so this comes before any change
+    parts.begin_impulses(state_);
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
     const auto store_remainder = [&] { state_.remainder = std::min(left, substep); };
@@ -256,11 +257,13 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         detail::advect_gusts(state_);
         state_.displaced_in = substep;
         parts.store_contacts(state_);
+        parts.add_impulses(state_);
         const bool torn = parts.plan.tears && tear_links(state_, parts.torn), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);
     }
     if (steps) parts.prepared = true;
     done.torn = parts.torn;
+    done.impulses = parts.reported_impulses();
     return done;
 }
 

@@ -212,6 +212,7 @@ void ChainNewton::finish() {
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = s_.nodes[k].x;
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = s_.bonds[k].multiplier;
     }
+    push_colliders();
     const auto& p = s_.progress;
     scratch_.chain_error[chain_] = p.worst;
     local_.done.passes = std::max(local_.done.passes, p.steps_taken);

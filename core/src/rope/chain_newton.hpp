@@ -61,6 +61,7 @@ class ChainNewton {
     void apply_friction(ContactScratch::Contact& contact);
     bool update_link(ContactScratch::LinkContact& contact);
     void apply_link_friction(const ContactScratch::LinkContact& contact);
+    void push_colliders() const;
     void begin_bends();
     void save_state();
     void scale_step(double part);

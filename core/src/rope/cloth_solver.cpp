@@ -301,6 +301,7 @@ int ClothSolver::solve(int iterations) {
         store_forces();
     }
     finish();
+    push_colliders(local_.earlier_contacts);
     return max_taken;
 }
 

@@ -152,6 +152,7 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
         touch.touching = true;
         touch.collider_displacement = scratch_.colliders[collider].move_at(scratch_.x[i]);
         touch.normal = normal;
+        touch.collider = collider;
         local_.touched.push_back(i);
     }
     return touch;
@@ -167,6 +168,7 @@ void Substep::apply_friction(std::uint32_t i, std::uint32_t body) {
                  limit = detail::friction(state_, state_.bodies[body]) * normal_part;
     if (size > limit) wanted = (limit / size) * wanted;
     scratch_.x[i] += wanted - friction;
+    touch.moved += wanted - friction;
     touch.displacement = normal_part * touch.normal + wanted;
 }
 
@@ -191,6 +193,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     const Scratch::Moving& collider = scratch_.colliders[number];
     const double radius = state_.bodies[body].radius;
     dvec3& x = scratch_.x[i];
+    const dvec3 was = x;
     const double travelled = first ? detail::length(x - state_.position[i]) : 0.0;
     if (collider.far_from(x, radius + travelled)) return;
     const SurfaceDistance surface = first ? collider.sweep(state_.position[i], x, radius, report_.work)
@@ -200,6 +203,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     record_impact(body, depth);
     x += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
+    contact.moved += x - was;
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // a second surface
     contact.displacement += depth * surface.normal;
     apply_friction(i, body);
@@ -232,6 +236,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
         if (by <= 0.0) return;
         scratch_.x[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);
+        contact.moved += by * surface.normal;
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.displacement += by * surface.normal;
         apply_friction(i, body);

@@ -189,9 +189,14 @@ void Substep::depenetrate() {
                   const bool keeps = of.kind == Body::Kind::Cloth || detail::bends(state_, of);
                   dvec3& x = scratch_.x[i];
                   const dvec3 was = x;
-                  if (neighbours.depth(x, of.radius) <= (keeps ? penetration_slop : depth_tolerance)) return;
+                  const auto [shape, depth] = neighbours.deepest(x, of.radius);
+                  if (depth <= (keeps ? penetration_slop : depth_tolerance)) return;
                   if (!move_out(neighbours, x, of.radius)) ++report_.unresolved;
                   record_impact(body, detail::length(x - was));
+                  if (x == was) return;
+                  const auto by = std::ranges::find(scratch_.colliders, shape, &Scratch::Moving::shape);
+                  touch(i, static_cast<std::uint32_t>(by - scratch_.colliders.begin()), detail::unit(x - was))
+                      .moved += x - was;
               });
 }
 

@@ -37,7 +37,16 @@ struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
     glm::dvec3 collider_displacement{0.0};  ///< displacement of the collider in the substep
+    glm::dvec3 moved{0.0};                  ///< by this and later colliders, metres
+    std::uint32_t collider = 0;
     bool touching = false;
+};
+
+/// An impulse of a particle on a collider.
+struct Push {
+    std::uint32_t collider = 0, particle = 0;
+    std::size_t order = 0;  ///< among those of its particle
+    glm::dvec3 impulse{0.0}, at{0.0};
 };
 
 /// Memory for solving a chain among colliders.
@@ -298,9 +307,17 @@ struct IslandScratch {
         std::optional<Scratch::Slowdown> slowdown{};  ///< empty until its energy is balanced
     };
     std::vector<Member> members;      ///< by group
+    std::vector<Push> pushes;         ///< in this substep, of all the thread's islands
+    std::size_t first_push = 0;       ///< of the island
+    bool attached = false;            ///< a particle of the island is attached to a collider
     bool at_edge = false;             ///< a particle is near the edge of the world, which may hold it
     tendril::detail::ForkJoin loops;  ///< over a cloth; idle threads help
     Advance done;                     ///< in this substep; `passes`: maximum over the islands
+
+    void push(std::uint32_t collider, std::uint32_t particle, const glm::dvec3& impulse,
+              const glm::dvec3& at) {
+        pushes.push_back({collider, particle, pushes.size(), impulse, at});
+    }
 };
 
 /// The data that an island's solvers share in one fixed substep. They write only the island's own data, so
@@ -409,7 +426,9 @@ struct Workspace::Parts {
     Scratch scratch;
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
-    std::vector<TornLink> torn;  ///< in the last advance()
+    std::vector<TornLink> torn;             ///< in the last advance()
+    std::vector<Push> pushes;               ///< in this substep
+    std::vector<ColliderImpulse> impulses;  ///< in the last advance(), by collider
     /// Sizes match the plan, and the last advance() was not cut short.
     bool prepared = false;
 
@@ -424,6 +443,10 @@ struct Workspace::Parts {
     /// Adds the threads' work in the substep to the report of the call.
     void sum_reports(Advance& done);
     void store_contacts(State& state);
+    // impulses.cpp
+    void begin_impulses(const State& state);
+    void add_impulses(const State& state);
+    std::span<const ColliderImpulse> reported_impulses();
 };
 
 }  // namespace tendril::rope

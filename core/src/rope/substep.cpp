@@ -60,6 +60,7 @@ Substep::Substep(const Substep& whole, const Plan::Island& part)
 
 void Substep::run(bool measures) {
     measures_ = measures;
+    local_.first_push = local_.pushes.size();
     list_members();
     move_particles();
     find_near();
@@ -104,10 +105,12 @@ void Substep::move_particles() {
         scratch_.base[i] = state_.position[i] + (damping_ * moved + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
     });
+    local_.attached = false;
     const auto move_pin = [&](Pin& pin) {
         const dvec3 at = state_.position[pin.particle];
         dvec3 goal = pin.goal;
         if (pin.collider) {
+            local_.attached = true;
             const std::uint32_t holder = scratch_.collider_at[pin.collider.index];
             goal += dvec3(centre(state_.colliders[holder].shape));
         }
@@ -163,6 +166,10 @@ void Substep::clamp_to_world() {
 }
 
 void Substep::commit() {
+    push_touched();
+    if (local_.attached) push_attached();
+    const bool pushed = local_.pushes.size() > local_.first_push;
+    const std::optional<dvec3> before = pushed ? momentum(true) : std::nullopt;
     each_particle([&](std::size_t i) {
         dvec3 &x = scratch_.x[i], &position = state_.position[i], &moved = state_.displacement[i];
         // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Adding 0 removes
@@ -182,8 +189,7 @@ void Substep::commit() {
         tie.now = static_cast<float>(detail::enforced_length(tie, h_));
     }
     apply_slowdown();
-    for (const std::uint32_t i : local_.touched) scratch_.touch[i] = Touch{};
-    local_.touched.clear();
+    if (before) balance_pushes(*before - *momentum(false));
 }
 
 }  // namespace tendril::rope

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "rope/scratch.hpp"
@@ -68,6 +69,12 @@ class Substep : IslandStep {
     void record_impact(std::uint32_t body, double depth);
     void apply_friction(std::uint32_t i, std::uint32_t body);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
+
+    // impulses.cpp
+    void push_touched();
+    std::optional<glm::dvec3> momentum(bool free) const;
+    void balance_pushes(const glm::dvec3& lost);
+    void push_attached();
 
     // depenetration.cpp: particles still inside after the last pass
     void depenetrate();

@@ -362,6 +362,7 @@ int TiedSolver::solve(int iterations) {
                      (strain_ <= accepted_strain || taken >= max_grid_steps);
     }
     each_grid([&](std::uint32_t number) { Cloth(*this, number).finish(); });
+    push_colliders(local_.cloth_contacts);
     return taken;
 }
 

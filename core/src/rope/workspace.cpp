@@ -45,6 +45,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
 
 void size(IslandScratch& scratch, const State& state, const Plan& plan, std::size_t lanes) {
     scratch.done = {};
+    scratch.pushes.clear();
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());

@@ -51,6 +51,16 @@ struct TornLink {
     Link link;
 };
 
+/// The impulse that bodies gave a collider in one call of advance(), by contact, friction, and the particles
+/// attached to it, whose weight it includes. An engine applies it to the rigid body that moves the collider,
+/// and moves the collider by the body's new velocity. That throws the body off a taut rope that cannot
+/// stretch: such a rope needs a compliance, 1e-4 1/N under some newtons.
+struct ColliderImpulse {
+    ColliderId collider;
+    glm::dvec3 linear{0.0};   ///< N s
+    glm::dvec3 angular{0.0};  ///< N m s, about the collider's centre
+};
+
 /// Report of one call of advance().
 struct Advance {
     int substeps = 0;
@@ -74,6 +84,9 @@ struct Advance {
     std::span<const TornLink> torn{};  ///< links over their body's tear strain, by substep, then in the order
                                        ///< of State::links; a rope loses one in a substep, the most strained.
                                        ///< Valid until the workspace's next call
+    /// By collider that bodies pushed or pulled, in the order of State::colliders. Colliders do not feel
+    /// them: they move as told. Valid until the workspace's next call.
+    std::span<const ColliderImpulse> impulses{};
     bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
                            ///< from: nothing was done
 };

@@ -1,0 +1,148 @@
+// The impulses that bodies give colliders, for the engine whose bodies they are.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Solver;
+
+/// Sums the impulses on a collider while time passes.
+struct Felt {
+    glm::dvec3 linear{0.0}, angular{0.0};
+
+    void add(rope::ColliderId collider, const rope::Advance& done) {
+        for (const rope::ColliderImpulse& each : done.impulses)
+            if (each.collider == collider) linear += each.linear, angular += each.angular;
+    }
+};
+/// The mean force and torque on a collider over `seconds`.
+Felt force_on(World& world, const char* collider, double seconds) {
+    Felt felt;
+    const double frame = 1.0 / 60.0;
+    const int frames = static_cast<int>(std::lround(seconds / frame));
+    for (int i = 0; i < frames; ++i) felt.add(world.find_collider(collider)->id, world.advance(frame));
+    return {felt.linear / (frame * frames), felt.angular / (frame * frames)};
+}
+
+/// A rope, a cloth, two tied ropes, or a cloth tied to a rope, above the ground or a box.
+World resting_on(int kind, Solver solver, bool box) {
+    World world = world_with({.solver = solver, .damping = 2.0f, .friction = 0.5f});
+    if (box)
+        world.add_collider("ground", rope::Box{{0, -0.5f, 0}, {2, 0.5f, 2}});
+    else
+        world.add_collider("ground", rope::Plane{});
+    if (kind == 1 || kind == 3)
+        world.add_cloth(
+            "cloth",
+            {.corner = {0, 0.05f, 0}, .along = {0.5f, 0, 0}, .down = {0, 0, 0.5f}, .columns = 8, .rows = 8});
+    else
+        world.add_rope(
+            "a",
+            {.from = {0, 0.05f, 0}, .to = {1, 0.05f, 0}, .segments = 12, .bending = kind == 4 ? 0.1f : 0.0f});
+    if (kind == 2 || kind == 3)
+        world.add_rope("b", {.from = {0, 0.05f, 0}, .to = {-0.6f, 0.05f, 0}, .segments = 9});
+    if (kind == 2 || kind == 3) allowed(world.core().tie(0, world.find("b")->first));
+    return world;
+}
+
+TEST(RopeImpulse, OfWhatLiesStillIsItsWeight) {
+    for (const Solver solver : all_solvers)
+        for (const bool box : {false, true})
+            for (int kind = 0; kind < 5; ++kind) {
+                World world = resting_on(kind, solver, box);
+                run(world, 3.0);
+                const Felt felt = force_on(world, "ground", 1.0);
+                EXPECT_NEAR(felt.linear.y / weight(world), -1.0, 0.01) << name(solver) << ' ' << kind << box;
+                EXPECT_LT(std::hypot(felt.linear.x, felt.linear.z), 0.01 * weight(world))
+                    << name(solver) << ' ' << kind << box;
+            }
+}
+
+/// A rope hangs over a bar, a longer side on the left: its weight turns the bar by its lever.
+TEST(RopeImpulse, TurnsABarByItsLever) {
+    World world = world_with({.damping = 2.0f, .friction = 2.0f});
+    world.add_collider("bar", rope::Capsule{{0, 0, -1}, {0, 0, 1}, 0.1f});
+    world.add_rope("rope", {.from = {-0.9f, 0.12f, 0}, .to = {0.7f, 0.12f, 0}, .segments = 64});
+    run(world, 5.0);
+    const Felt felt = force_on(world, "bar", 1.0);
+    double torque = 0.0;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        torque -= 9.81 * world.state().mass[i] * world.state().position[i].x;
+    EXPECT_NEAR(felt.linear.y / weight(world), -1.0, 0.01);
+    EXPECT_GT(torque, 0.01 * weight(world));
+    EXPECT_NEAR(felt.angular.z / torque, 1.0, 0.03);
+}
+
+/// Thrown at a collider, without gravity, bodies give it the momentum that they lose.
+TEST(RopeImpulse, IsTheMomentumThatBodiesLose) {
+    for (const Solver solver : all_solvers)
+        for (int kind = 0; kind < 5; ++kind)
+            for (const bool ball : {false, true}) {
+                World world = resting_on(kind, solver, true);
+                world.set_settings(
+                    {.solver = solver, .damping = 0.0f, .gravity = {0, 0, 0}, .friction = 0.5f});
+                world.remove_collider("ground");
+                if (ball)
+                    world.add_collider("ground", rope::Sphere{{0.3f, -0.4f, 0.2f}, 0.3f});
+                else
+                    world.add_collider("ground", rope::Plane{});
+                throw_all(world, [](std::size_t) { return glm::dvec3(0.5, -2.0, 0.2); });
+                Felt felt;
+                const glm::dvec3 before = momentum(world);
+                for (int i = 0; i < 60; ++i)
+                    felt.add(world.state().colliders[0].id, world.advance(1.0 / 60.0));
+                const glm::dvec3 lost = before - momentum(world);
+                EXPECT_GT(glm::length(lost), 0.1 * glm::length(before)) << name(solver) << kind << ball;
+                EXPECT_LT(glm::distance(felt.linear, lost), 1e-3 * glm::length(lost))
+                    << name(solver) << ' ' << kind << ball;
+            }
+}
+
+/// A rope that hangs from a ball by its pin: with and without stiffness.
+TEST(RopeImpulse, OfARopeThatHangsFromAColliderIsItsWeight) {
+    for (const float bending : {0.0f, 0.05f})
+        for (const Solver solver : all_solvers) {
+            World world = world_with({.solver = solver, .damping = 2.0f});
+            world.add_collider("ball", rope::Sphere{{0, 1, 0}, 0.05f});
+            world.add_rope("rope",
+                           {.from = {0.1f, 1, 0}, .to = {0.6f, 0.4f, 0}, .segments = 16, .bending = bending});
+            allow(world.core().attach(0, world.find_collider("ball")->id));
+            run(world, 10.0);
+            const Felt felt = force_on(world, "ball", 1.0);
+            EXPECT_NEAR(felt.linear.y / weight(world), -1.0, 0.01) << name(solver) << bending;
+            EXPECT_NEAR(felt.angular.z / (0.1 * weight(world)), -1.0, 0.02) << name(solver) << bending;
+        }
+}
+
+/// A ball that an engine simulates falls on a rope bridge and comes to rest there.
+TEST(RopeImpulse, LetsABallRestOnABridge) {
+    World world = world_with({.damping = 1.0f, .compliance = 1e-4f});
+    hang_between(world, 1.0f, 1.1f, 32);
+    const double mass = 0.5, frame = 1.0 / 240.0;
+    glm::dvec3 at(0.5, 0.1, 0.0), velocity(0.0);
+    world.add_collider("ball", rope::Sphere{glm::vec3(at), 0.08f});
+    for (int i = 0; i < 240 * 10; ++i) {
+        Felt felt;
+        felt.add(world.find_collider("ball")->id, world.advance(frame));
+        velocity += felt.linear / mass + glm::dvec3(0.0, -9.81 * frame, 0.0);
+        velocity *= glm::dvec3(0.995, 0.995, 0.0);  // else it would roll off to the side
+        at += frame * velocity;
+        world.move_collider("ball", glm::vec3(at), frame);
+    }
+    EXPECT_LT(glm::length(velocity), 1e-3);
+    EXPECT_NEAR(at.y, -0.121, 0.001);
+    EXPECT_NEAR(force_on(world, "ball", 1.0).linear.y, -9.81 * mass, 0.01 * 9.81 * mass);
+}
+
+TEST(RopeImpulse, IsNotReportedWhereNothingTouches) {
+    World world;
+    world.add_collider("far", rope::Sphere{{5, 0, 0}, 0.3f});
+    world.add_rope("rope", {.from = {0, 1, 0}, .to = {1, 1, 0}});
+    EXPECT_TRUE(world.advance(0.1).impulses.empty());
+    world.add_collider("ground", rope::Plane{{0, 0.97f, 0}, {0, 1, 0}});
+    EXPECT_EQ(world.advance(0.1).impulses.size(), 1u);
+    EXPECT_TRUE(world.advance(0.0).impulses.empty());
+}
+
+}  // namespace
+}  // namespace tendril::test
