@@ -203,6 +203,10 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
             for (const BodyColour each : body_colours.values())
                 options.swatches.push_back(body_colour(each, body.kind, colours));
         rows.row(name, options);
+        const std::string force = name == "tear" ? tearing_text(world, body) : "";
+        if (force.empty()) continue;
+        reading("", "%s", force.c_str());
+        explain("The force that stretches it to this strain.");
     }
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
