@@ -49,6 +49,8 @@ std::string tension_text(const NamedWorld& world, const RopeSelection& selection
 /// The force at which a rope tears: "100.00 N", or "too stiff to tear". Empty if it never tears, and for
 /// other bodies.
 std::string tearing_text(const NamedWorld& world, const rope::Body& body);
+/// "rope tore at particle 12, under 100.00 N; 2 more tears"; at least one.
+std::string torn_text(const std::vector<RopeTear>& tears);
 /// The tension of a tie, if it is a number of newtons.
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);
 

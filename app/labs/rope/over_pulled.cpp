@@ -239,4 +239,12 @@ std::string tearing_text(const NamedWorld& world, const rope::Body& body) {
     return settings.solver == rope::Solver::Direct ? "too stiff to tear" : "";
 }
 
+std::string torn_text(const std::vector<RopeTear>& tears) {
+    const RopeTear& first = tears.front();
+    std::string text = first.body + " tore at particle " + std::to_string(first.particle);
+    if (first.tension > 0.0f) text += ", under " + force_text(first.tension);
+    if (tears.size() > 1) text += "; " + count_text(tears.size() - 1, "more tear");
+    return text;
+}
+
 }  // namespace tendril::app

@@ -174,8 +174,9 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
-    show_verdict(paced_verdict(rope_verdict(rope_part(workspace)), workspace),
-                 palette(workspace.settings.theme), emit);
+    const RopePart& part = rope_part(workspace);
+    show_verdict(paced_verdict(rope_verdict(part), workspace), palette(workspace.settings.theme), emit);
+    if (!part.tears.empty()) cure_line(torn_text(part.tears), restart_of_torn(part), emit, true);
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
 }
