@@ -331,13 +331,14 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float min_width = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
     of = std::clamp(static_cast<int>((whole + gap) / (min_width + gap)), 1, of);
     const auto share = [&] { return (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of); };
-    const float needed = ImGui::CalcTextSize(title).x + ImGui::GetStyle().FramePadding.x;
+    const std::string visible(title, ImGui::FindRenderedTextEnd(title));
+    const float needed = ImGui::CalcTextSize(visible.c_str()).x + ImGui::GetStyle().FramePadding.x;
     while (of > 1 && share() < needed) --of;  // the title must fit
     const float width = share();
     const bool begun = ImGui::GetCursorPosX() > ImGui::GetWindowContentRegionMin().x + 1.0f;
     if (begun && ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f)
         ImGui::NewLine();
-    const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
+    const std::string shown = elided(visible, width - ImGui::GetStyle().FramePadding.x);
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5f * padding.x, padding.y));
     ImGui::BeginDisabled(!enabled);

@@ -67,6 +67,7 @@ bool contains_text(std::string_view text, std::string_view part) {
 
 bool search_line(const char* id, const char* hint, SearchText& typed) {
     const int last = std::exchange(typed.hits, 0) - 1;
+    typed.found = false;
     const bool was_empty = typed.empty();
     ImGui::SetNextItemWidth(-1.0f);
     typed.entered = ImGui::InputTextWithHint(id, hint, typed.text.data(), typed.text.size(),
@@ -133,6 +134,7 @@ bool list_row(const std::string& title, bool chosen, const char* why_not,
               const std::optional<glm::vec3>& swatch) {
     SearchText& typed = open_list().typed;
     if (!contains_text(title, typed.text.data())) return false;
+    typed.found = true;
     if (why_not != nullptr) {
         ImGui::Selectable((title + ": " + why_not).c_str(), chosen, ImGuiSelectableFlags_Disabled);
         return false;
@@ -150,8 +152,10 @@ bool list_row(const std::string& title, bool chosen, const char* why_not,
 }
 
 void end_list() {
+    const OpenList& list = open_list();
+    if (!list.typed.empty() && !list.typed.found) note("Nothing here contains this.");
     ImGui::EndChild();
-    if (open_list().in_field)
+    if (list.in_field)
         ImGui::EndCombo();
     else
         ImGui::EndPopup();

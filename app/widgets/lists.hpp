@@ -18,6 +18,7 @@ struct SearchText {
     std::array<char, 64> text{};
     int at = -1;           ///< the highlighted hit; negative: none
     int hits = 0;          ///< the last frame's, or this one's so far
+    bool found = false;    ///< a row of this frame contains the text; greyed ones are no hits
     bool moved = false;    ///< the highlight moved in this frame
     bool entered = false;  ///< Enter was pressed in this frame
 

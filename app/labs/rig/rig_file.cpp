@@ -159,6 +159,7 @@ TakeKey read_key(const JsonPlace& place, const RigPart& part) {
 Json take_json(const RigPart& part) {
     const RigTake& take = part.take;
     Json json{{"began", take.began}};
+    if (take.recording) json["recording"] = *take.recording;
     if (!take.start) return json;
     json["tick"] = take.tick;
     json["last"] = take.last;
@@ -168,12 +169,14 @@ Json take_json(const RigPart& part) {
 }
 
 RigTake read_take(const JsonPlace& place, const RigPart& part) {
-    check_members(place, {"began", "tick", "last", "start", "keys"});
+    check_members(place, {"began", "recording", "tick", "last", "start", "keys"});
     RigTake take{.start = nullptr,
                  .keys = nullptr,
                  .tick = 0,
                  .last = 0,
                  .began = place["began"].count(max_recording_tick)};
+    if (const auto recording = place.optional("recording"))
+        take.recording = static_cast<std::uint32_t>(recording->count(max_take_ticks));
     if (!place.has("start")) return take;
     check_members(place["start"], {"controls", "curves", "poses", "units"});
     take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));

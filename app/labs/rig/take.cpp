@@ -141,7 +141,7 @@ std::vector<TakeKey> as_one(std::span<const TakeKey> keys, std::uint32_t tick) {
 }  // namespace
 
 bool RigTake::operator==(const RigTake& other) const {
-    return tick == other.tick && last == other.last && began == other.began &&
+    return tick == other.tick && last == other.last && began == other.began && recording == other.recording &&
            (start == other.start || (start && other.start && *start == *other.start)) &&
            same_keys(*this, other);
 }
@@ -150,7 +150,9 @@ void begin_take(RigPart& part) {
     part.rates.reset();  // the rates belong to the old take
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
+    const bool recording = part.take.recording.has_value();
     part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};
+    if (recording) part.take.recording = 0;
 }
 
 void key_control(RigPart& part, std::size_t element) {

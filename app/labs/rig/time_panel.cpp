@@ -100,13 +100,15 @@ std::string clip_text(const RigPart& part) {
 
 void clip_rows(const RigPart& part, Emit& emit) {
     const bool running = part.clip_left && part.clip_left->running;
-    const bool something = part.take.last > 0 || !part.walks.empty();
-    if (row_button("Record", 3, something,
-                   part.take.last > 0
-                       ? "Keeps how the bones moved since the take began, at the flag below the scene"
-                   : something ? "Records the next ten seconds of the walk"
-                               : "Play first"))
+    const RigTake& take = part.take;
+    if (!take.recording) {
+        if (row_button("Record", 3, true, "Plays, and records how the bones move, until Stop"))
+            emit("rig.clip.start");
+    } else if (const std::string seconds = fixed_text(take.recorded() * tick_seconds, 1);
+               row_button(("Stop " + seconds + " s###stop").c_str(), 3, take.recorded() > 0,
+                          "Keeps how the bones moved since Record, or since a later edit of the rig")) {
         emit("rig.clip.record");
+    }
     if (running) {
         if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");
     } else if (row_button(
@@ -114,7 +116,8 @@ void clip_rows(const RigPart& part, Emit& emit) {
                    "Backward: finds the controls for each frame; the timeline shows the errors left")) {
         emit("rig.clip.solve");
     }
-    if (row_button("Clear", 3, part.clip != nullptr, "Removes the clip")) emit("rig.clip.clear");
+    if (row_button("Clear", 3, part.clip || take.recording, "Removes the clip, or ends the recording"))
+        emit("rig.clip.clear");
     end_row();
     if (running)
         ImGui::ProgressBar(

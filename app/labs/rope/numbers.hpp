@@ -43,10 +43,14 @@ struct OverPulled {
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
 
 /// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
-/// draws its ends together, and where pins pull inextensible links: that force has no limit. Also says at
-/// which force a rope tears.
+/// draws its ends together, and where pins pull inextensible links: that force has no limit.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
+/// The force at which a rope tears: "100.00 N", or "too stiff to tear". Empty if it never tears, and for
+/// other bodies.
+std::string tearing_text(const NamedWorld& world, const rope::Body& body);
+/// "rope tore at particle 12, under 100.00 N; 2 more tears"; at least one.
+std::string torn_text(const std::vector<RopeTear>& tears);
 /// The tension of a tie, if it is a number of newtons.
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);
 

@@ -227,13 +227,24 @@ std::string tension_text(const NamedWorld& world, const RopeSelection& selection
     const rope::Body* const body = world.find(selection.body);
     const auto in_body = [&](std::size_t i) { return i - body->first < body->count; };
     if (body != nullptr && is_pulled(over_pulled(world), in_body)) return unbounded;
-    const std::string now = force_text(strongest_tension(world, measured_particles(world, selection)));
-    if (body == nullptr || body->kind != rope::Body::Kind::Rope || !(body->tear > 0.0f)) return now;
+    return force_text(strongest_tension(world, measured_particles(world, selection)));
+}
+
+std::string tearing_text(const NamedWorld& world, const rope::Body& body) {
+    if (body.kind != rope::Body::Kind::Rope || !(body.tear > 0.0f)) return "";
     const rope::Settings& settings = world.settings();
-    double soft = world.world().compliance(*body, rope::Link::Kind::Stretch);
+    double soft = world.world().compliance(body, rope::Link::Kind::Stretch);
     if (settings.solver != rope::Solver::Relaxation) soft += static_cast<double>(settings.compliance);
-    if (soft > 0.0) return now + ", tears at " + force_text(static_cast<float>(body->tear / soft));
-    return settings.solver == rope::Solver::Direct ? now + ", too stiff to tear" : now;
+    if (soft > 0.0) return force_text(static_cast<float>(body.tear / soft));
+    return settings.solver == rope::Solver::Direct ? "too stiff to tear" : "";
+}
+
+std::string torn_text(const std::vector<RopeTear>& tears) {
+    const RopeTear& first = tears.front();
+    std::string text = first.body + " tore at particle " + std::to_string(first.particle);
+    if (first.tension > 0.0f) text += ", under " + force_text(first.tension);
+    if (tears.size() > 1) text += "; " + count_text(tears.size() - 1, "more tear");
+    return text;
 }
 
 }  // namespace tendril::app

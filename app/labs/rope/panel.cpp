@@ -174,8 +174,9 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
-    show_verdict(paced_verdict(rope_verdict(rope_part(workspace)), workspace),
-                 palette(workspace.settings.theme), emit);
+    const RopePart& part = rope_part(workspace);
+    show_verdict(paced_verdict(rope_verdict(part), workspace), palette(workspace.settings.theme), emit);
+    if (!part.tears.empty()) cure_line(torn_text(part.tears), restart_of_torn(part), emit, true);
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
 }
@@ -203,6 +204,10 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
             for (const BodyColour each : body_colours.values())
                 options.swatches.push_back(body_colour(each, body.kind, colours));
         rows.row(name, options);
+        const std::string force = name == "tear" ? tearing_text(world, body) : "";
+        if (force.empty()) continue;
+        reading("", "%s", force.c_str());
+        explain("The force that stretches it to this strain.");
     }
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))

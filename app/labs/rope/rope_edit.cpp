@@ -287,6 +287,8 @@ void rename_body(RopeEdit& edit, const std::string& body, const std::string& nam
     edit.world().rename(body, name);
     if (edit.part.hold && edit.part.hold->body == body) edit.part.hold->body = name;
     if (edit.part.selection && edit.part.selection->body == body) edit.part.selection->body = name;
+    for (RopeTear& each : edit.part.tears)
+        if (each.body == body) each.body = name;
 }
 
 void forget_missing(RopePart& part) {
@@ -315,6 +317,7 @@ void forget_missing(RopePart& part) {
         };
         if (std::ranges::none_of(capsules, is_there)) part.walker = {};
     }
+    std::erase_if(part.tears, [&](const RopeTear& each) { return world.find(each.body) == nullptr; });
     std::erase_if(part.swings,
                   [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });
 }

@@ -210,14 +210,6 @@ bool squeezed(const rope::State& state, const rope::Body& body) {
     return worst < 0.0;
 }
 
-/// Whether the ropes had more links and ties where a restart leads.
-bool was_whole(const RopePart& part) {
-    const auto joints = [](const RopePart& at) {
-        return at.world->state().links.size() + at.world->state().ties.size();
-    };
-    return part.start && joints(dynamic_cast<const RopePart&>(*part.start)) > joints(part);
-}
-
 constexpr const char* halve_substep = "Halve the substep";
 
 /// None at the minimum, where a tick already drops substeps, and for work that it would drop.
@@ -254,6 +246,15 @@ Cure restart_cure() {
             {{"rope.restart", {}}}};
 }
 
+std::optional<Cure> restart_of_torn(const RopePart& part) {
+    const auto joints = [](const RopePart& at) {
+        return at.world->state().links.size() + at.world->state().ties.size();
+    };
+    if (!part.start || joints(dynamic_cast<const RopePart&>(*part.start)) <= joints(part))
+        return std::nullopt;
+    return restart_cure();
+}
+
 Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // fraction of its length: visibly too long
     if (part.world->state().bodies.empty())
@@ -288,7 +289,7 @@ Verdict rope_verdict(const RopePart& part) {
     if (torn > 0)
         return {"Torn", Verdict::Kind::Open,
                 count_text(torn, "link") + " tore in the last ten seconds: drag the timeline back to see it.",
-                was_whole(part) ? std::optional(restart_cure()) : std::nullopt};
+                part.tears.empty() ? restart_of_torn(part) : std::nullopt};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};

@@ -46,6 +46,8 @@ void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
 const Past& rope_past();
 /// Puts everything where the last change left it.
 Cure restart_cure();
+/// The same, if the ropes had more links and ties where it leads.
+std::optional<Cure> restart_of_torn(const RopePart& part);
 
 class RopeLab final : public Lab {
   public:

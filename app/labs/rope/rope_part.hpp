@@ -38,6 +38,13 @@ struct Swing {
     bool operator==(const Swing&) const = default;
 };
 
+/// The first tear of a body.
+struct RopeTear {
+    std::string body;
+    std::size_t particle = 0;  ///< of the body as it was
+    float tension = 0.0f;      ///< newtons, in the link that tore
+};
+
 /// The particles of a body that a drag holds. They were not pinned before.
 struct Hold {
     std::string body;
@@ -122,6 +129,7 @@ struct RopePart final : Part, RopeRacer {
     int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
     std::vector<RopeRacer> rivals;      ///< in a race (race.hpp)
     std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
+    std::vector<RopeTear> tears;        ///< of bodies that exist, in the order of time. Not saved
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;

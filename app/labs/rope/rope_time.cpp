@@ -41,7 +41,7 @@ struct Tick {
     RopeReport report;
 };
 
-void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
+void advance(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
     // Always allow one substep: otherwise a world that is too large would silently stop.
     const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{!tick.begun});
@@ -56,6 +56,12 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
     report.substeps += static_cast<std::uint64_t>(done.substeps);
     report.dropped += done.dropped;
     report.contact_loss += static_cast<float>(done.contact_loss);
+    for (const auto& [id, link] : done.torn) {
+        const rope::Body& body = *world.world().find(id);
+        const std::string& name = world.name(body);
+        if (std::ranges::find(part.tears, name, &RopeTear::body) == part.tears.end())
+            part.tears.push_back({name, link.a - body.first, link.tension});
+    }
 }
 
 /// Advances by a frame. If anything swings or walks, the frame is split at the lab's ticks, where its next
@@ -63,7 +69,7 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     constexpr double rounding = 1e-6;  // fraction of a tick
     if (part.swings.empty() && !part.walker.figure) {
-        advance(world, seconds, workspace, tick);
+        advance(part, world, seconds, workspace, tick);
         part.time += seconds;
         return;
     }
@@ -73,7 +79,7 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        advance(world, piece, workspace, tick);
+        advance(part, world, piece, workspace, tick);
         part.time += piece;
         seconds -= piece;
     }

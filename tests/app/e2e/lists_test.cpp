@@ -92,6 +92,18 @@ TEST_F(ListsTest, AClickOnTheFieldOfAnOpenListClosesIt) {
     EXPECT_TRUE(is_open());
 }
 
+TEST_F(ListsTest, ItSaysThatNothingContainsTheText) {
+    open("rig");
+    click(item(DrawnItem::Kind::Button, "Add a unit"));
+    ASSERT_TRUE(is_open());
+    DrivenApp::type("set");
+    EXPECT_FALSE(seen("Nothing here contains this."));
+    DrivenApp::type("yzzy");
+    EXPECT_TRUE(seen("Nothing here contains this."));
+    key("enter");
+    EXPECT_TRUE(is_open());
+}
+
 TEST_F(ListsTest, AListBelowAButtonTakesTypingToo) {
     open("signal");
     const auto filters = [&] { return app_.state().at("filters").size(); };

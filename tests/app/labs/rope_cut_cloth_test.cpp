@@ -6,6 +6,7 @@
 #include "app/view/camera.hpp"
 #include "app/widgets/emit.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -214,6 +215,27 @@ TEST_F(RopeCutCloth, ARopeTears) {
     EXPECT_EQ(particles, 9u);
     EXPECT_LT(world().length_error(), 0.01);
     EXPECT_EQ(state()["verdict"], "Torn");
+}
+
+TEST_F(RopeCutCloth, ATearIsShownUntilARestartOrItsRopeIsRemoved) {
+    single_rope(8);
+    run("rope.set", {{"rope", "rope"}, {"tear", 0.1}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 8}, {"at", {2.5, 2, 0}}});
+    const auto shown = [&] { return test::PanelReader().inspector(lab(), workspace); };
+    EXPECT_FALSE(test::says(shown(), "tore"));
+    wait(700);
+    EXPECT_NE(state()["verdict"], "Torn") << "ten seconds ago";
+    EXPECT_TRUE(test::says(shown(), "rope tore at particle Restart")) << shown();
+    run("rope.set", {{"rope", "rope"}, {"name", "line"}});
+    EXPECT_TRUE(test::says(shown(), "line tore at particle")) << shown();
+    run("undo");
+    run("rope.restart");
+    EXPECT_TRUE(part().tears.empty());
+    run("undo");
+    EXPECT_FALSE(part().tears.empty());
+    run("rope.remove", {{"name", "rope"}});
+    for (const RopeTear& each : part().tears) EXPECT_NE(each.body, "rope");
 }
 
 TEST_F(RopeCutCloth, RefusalsGiveReasonAndPlace) {

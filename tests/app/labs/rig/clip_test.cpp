@@ -1,5 +1,7 @@
 // Clips in the Rig lab: recording, and the frames that the rig can express.
+#include <algorithm>
 #include <random>
+#include <span>
 #include <tendril/rig/explain.hpp>
 
 #include "app/io/character/read.hpp"
@@ -85,6 +87,7 @@ TEST_F(RigClips, IsExportedAsItWasRecorded) {
     const test::TempFolder folder;
     const std::string path = (folder / "head.glb").string();
     expect_refused("rig.clip.record", {{"seconds", 1}}, {"no bones"});
+    expect_refused("rig.clip.start", Json::object(), {"no bones"});
     run("rig.preset", {{"name", "fk"}});
     expect_refused("rig.clip.record", Json::object(), {"nothing has been played"});
     walking_head();
@@ -107,6 +110,41 @@ TEST_F(RigClips, IsExportedAsItWasRecorded) {
     run("rig.clip.record", {{"seconds", 0.1}});
     run("rig.clip.export", {{"path", (folder / "arm.glb").string()}});
     tells("bones scaled unequally: tip is off");
+}
+
+TEST_F(RigClips, HoldsOnlyTheTicksBetweenRecordAndStop) {
+    walking_head();
+    wait(90);
+    run("rig.clip.start");
+    EXPECT_TRUE(workspace.clock.playing);
+    expect_refused("rig.clip.record", Json::object(), {"played since"});
+    wait(24);
+    set_folded(workspace.settings, rig_lab, false);
+    EXPECT_TRUE(test::says(test::PanelReader().panel(lab(), workspace), "Stop 0.4 s"));
+    EXPECT_EQ(rig_part(reopened()).take, part().take);
+    run("rig.clip.record");
+    const RigClip clip = *part().clip;
+    EXPECT_EQ(clip.began, part().take.began + 90);
+    ASSERT_EQ(clip.frames(), 25u);
+    EXPECT_FALSE(part().take.recording);
+    run("undo");
+    EXPECT_EQ(part().take.recording, 90u);
+    run("redo");
+    EXPECT_FALSE(part().take.recording);
+    run("rig.clip.record");
+    ASSERT_EQ(part().clip->frames(), 115u) << "without Record, the whole take";
+    EXPECT_TRUE(std::ranges::equal(clip.poses, std::span(part().clip->poses).last(clip.poses.size())));
+    run("rig.clip.start");
+    wait(6);
+    run("rig.time", {{"tick", part().take.began + 104}});
+    run("rig.clip.record");
+    EXPECT_EQ(part().clip->began, part().take.began + 104) << "back from where it began";
+    EXPECT_EQ(part().clip->frames(), 11u);
+    run("rig.clip.start");
+    run("rig.motion", {{"name", "head"}, {"path", "still"}});
+    EXPECT_EQ(part().take.recording, 0u) << "a new take";
+    run("rig.clip.clear");
+    EXPECT_FALSE(part().take.recording);
 }
 
 TEST_F(RigClips, IsUndoneCancelledAndCleared) {
