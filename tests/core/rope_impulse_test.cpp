@@ -131,7 +131,7 @@ TEST(RopeImpulse, LetsABallRestOnABridge) {
     }
     EXPECT_LT(glm::length(velocity), 1e-3);
     EXPECT_NEAR(at.y, -0.121, 0.001);
-    EXPECT_NEAR(force_on(world, "ball", 1.0).linear.y, -9.81 * mass, 0.01 * 9.81 * mass);
+    EXPECT_NEAR(force_on(world, "ball", 1.0).linear.y, 9.81 * mass, 0.01 * 9.81 * mass);
 }
 
 TEST(RopeImpulse, IsNotReportedWhereNothingTouches) {

@@ -45,6 +45,12 @@ struct RopeTear {
     float tension = 0.0f;      ///< newtons, in the link that tore
 };
 
+/// The mean force of bodies on a collider, in a tick.
+struct ColliderForce {
+    rope::ColliderId collider;
+    glm::dvec3 newtons{0.0};
+};
+
 /// The particles of a body that a drag holds. They were not pinned before.
 struct Hold {
     std::string body;
@@ -129,6 +135,7 @@ struct RopePart final : Part, RopeRacer {
     int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
     std::vector<RopeRacer> rivals;      ///< in a race (race.hpp)
     std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
+    std::vector<ColliderForce> forces;  ///< in the last tick, of those that bodies touch. Not saved
     std::vector<RopeTear> tears;        ///< of bodies that exist, in the order of time. Not saved
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }

@@ -39,6 +39,7 @@ struct Tick {
     std::uint64_t work_left = max_lab_work;
     bool begun = false;
     RopeReport report;
+    std::vector<ColliderForce> impulses{};
 };
 
 void advance(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
@@ -56,6 +57,13 @@ void advance(RopePart& part, NamedWorld& world, double seconds, rope::Workspace&
     report.substeps += static_cast<std::uint64_t>(done.substeps);
     report.dropped += done.dropped;
     report.contact_loss += static_cast<float>(done.contact_loss);
+    for (const rope::ColliderImpulse& push : done.impulses) {
+        const auto found = std::ranges::find(tick.impulses, push.collider, &ColliderForce::collider);
+        if (found == tick.impulses.end())
+            tick.impulses.push_back({push.collider, push.linear});
+        else
+            found->newtons += push.linear;
+    }
     for (const auto& [id, link] : done.torn) {
         const rope::Body& body = *world.world().find(id);
         const std::string& name = world.name(body);
@@ -112,6 +120,11 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
             pass_frame(part, *world, jitter.frame, workspace, tick);
             jitter.frame = jitter_frame(jitter, ++jitter.frames);
         }
+    }
+    if (const std::uint64_t substeps = tick.report.substeps; substeps > 0) {
+        part.forces = std::move(tick.impulses);
+        for (ColliderForce& each : part.forces)
+            each.newtons /= static_cast<double>(substeps) * world->settings().substep;
     }
     const auto whole = [](const rope::State& of) {
         const auto links = std::ranges::count(of.links, rope::Link::Kind::Stretch, &rope::Link::kind);

@@ -225,6 +225,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
     if (done.refused) return done;
     workspace.parts_->torn.clear();
+    workspace.parts_->impulses.clear();
     const double substep = state_.settings.substep;
     // Drops whole substeps only: a dropped remainder would not be counted.
     constexpr double rounding = 1e-6;  // relative to a substep
@@ -240,8 +241,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     const auto is_due = [&] { return left >= substep * (1.0 - rounding); };
     Workspace::Parts& parts = *workspace.parts_;
     const bool steps = is_due();
-    if (steps) parts.prepare(state_);  // allocates, so this comes before any change
-    parts.begin_impulses(state_);
+    if (steps) parts.prepare(state_);                   // allocates, so this comes before any change
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
     const auto store_remainder = [&] { state_.remainder = std::min(left, substep); };

@@ -151,11 +151,6 @@ void Substep::push_attached() {
     }
 }
 
-void Workspace::Parts::begin_impulses(const State& state) {
-    impulses.clear();
-    for (const Collider& each : state.colliders) impulses.push_back({.collider = each.id});
-}
-
 /// In an order that does not depend on threads.
 void Workspace::Parts::add_impulses(const State& state) {
     pushes.clear();

@@ -444,7 +444,6 @@ struct Workspace::Parts {
     void sum_reports(Advance& done);
     void store_contacts(State& state);
     // impulses.cpp
-    void begin_impulses(const State& state);
     void add_impulses(const State& state);
     std::span<const ColliderImpulse> reported_impulses();
 };

@@ -3,6 +3,7 @@
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
@@ -48,6 +49,18 @@ TEST_F(RopeTime, FramesOfAnyRateLeadToTheSameWorld) {
         }
         run("rope.jitter", {{"rate", 60}, {"dial", 0}});
     }
+}
+
+TEST_F(RopeTime, ShowsTheForceOnACollider) {
+    run("rope.clear");
+    run("rope.collider.add", {{"name", "ground"}, {"kind", "plane"}});
+    run("rope.add", {{"from", {0, 0.1, 0}}, {"to", {1, 0.1, 0}}});
+    wait(240);
+    ASSERT_EQ(part().forces.size(), 1u);
+    const double weight = 9.81 * world().world().mass(world().state().bodies.front());
+    EXPECT_NEAR(part().forces[0].newtons.y, -weight, 0.01 * weight);
+    run("rope.select", {{"collider", "ground"}});
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "force N")) << weight;
 }
 
 /// A tick's work is bounded, however fine the substeps; time beyond the bound is counted as dropped.
