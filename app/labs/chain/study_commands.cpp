@@ -10,7 +10,6 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
 
@@ -33,22 +32,12 @@ Argument start_argument() {
         {std::begin(starts), std::end(starts)});
 }
 
-/// Whether no solver would move.
-bool reached(const ChainPart& part) {
-    return shown_residual(part, positions(part.chain)) <= reach_tolerance(part.reach, part.chain.reach());
-}
-
-/// Studies need mode Reach; the chain then shows the result of a solve from the study's start: straight if
-/// the last start is not kept and the pose has reached the target.
+/// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
 template <Study::Kind kind>
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (!part.result) part.study.last_start.clear();  // bent by hand since the last solve
-    enter_mode(part, ChainMode::Reach);               // may put the target on the tip
-    std::optional<Study::From> from = start_of(given);
-    const bool last = from ? *from == Study::From::Last : !part.study.open();
-    if (last && part.study.last_start.size() != part.chain.size() && reached(part))
-        from = Study::From::Straight;
-    part.study.begin(kind, from, part.chain, part.reach);
+    part.study.begin(kind, start_of(given), part.chain, part.reach);
+    enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);
 }
 
