@@ -53,7 +53,8 @@ TEST_F(RopeTime, FramesOfAnyRateLeadToTheSameWorld) {
 
 TEST_F(RopeTime, ShowsTheForceOnACollider) {
     run("rope.clear");
-    run("rope.collider.add", {{"name", "ground"}, {"kind", "plane"}});
+    run("rope.collider.add",
+        {{"name", "ground"}, {"kind", "plane"}, {"point", {0, 0, 0}}, {"normal", {0, 1, 0}}});
     run("rope.add", {{"from", {0, 0.1, 0}}, {"to", {1, 0.1, 0}}});
     wait(240);
     ASSERT_EQ(part().forces.size(), 1u);
