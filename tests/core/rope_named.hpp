@@ -114,7 +114,7 @@ class World : public rope::World {
     }
 
     rope::Advance advance(double seconds, std::uint64_t max_substeps = std::uint64_t{1} << 40) {
-        return rope::World::advance(seconds, workspace_, {.max_substeps = max_substeps});
+        return rope::World::advance(seconds, workspace_, {.max_substeps = max_substeps, .impulses = true});
     }
 
     // A position in single precision, for comparison with inputs.

@@ -227,7 +227,7 @@ std::vector<glm::vec3> NamedWorld::positions() const {
 }
 
 rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps) {
-    return world_.advance(seconds, workspace, {.max_substeps = max_substeps});
+    return world_.advance(seconds, workspace, {.max_substeps = max_substeps, .impulses = true});
 }
 
 template <>

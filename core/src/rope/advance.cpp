@@ -171,6 +171,7 @@ void Workspace::Parts::solve_islands(State& state, bool measures) {
         for (std::size_t i; (i = next.fetch_add(1)) < islands.size();) {
             const bool shared = count > 1 && is_shared(plan, islands[i]);
             if (shared) local.loops.begin();
+            local.island = static_cast<std::uint32_t>(i);
             Substep(state, plan, islands[i], scratch, local).run(measures);
             if (!shared) continue;
             local.loops.end();
@@ -225,7 +226,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
     if (done.refused) return done;
     workspace.parts_->torn.clear();
-    workspace.parts_->impulses.clear();
+    workspace.parts_->begin_impulses(state_, options.impulses);
     const double substep = state_.settings.substep;
     // Drops whole substeps only: a dropped remainder would not be counted.
     constexpr double rounding = 1e-6;  // relative to a substep

@@ -22,6 +22,7 @@ using glm::dvec3;
 /// Each node bears what its contacts leave of its forces: those of links are known; of several planes each
 /// takes its normal part, and the deepest, which has the friction, the rest.
 void ChainNewton::push_colliders() const {
+    if (!local_.records_pushes) return;
     const double per_substep = 1.0 / state_.settings.substep;
     const auto link_contact = [&](std::uint32_t bond) -> const ContactScratch::LinkContact* {
         if (bond >= s_.bonds.size() || s_.bonds[bond].contact < 0) return nullptr;
@@ -34,7 +35,7 @@ void ChainNewton::push_colliders() const {
         const detail::NodeContact& effect = s_.node_effects[c];
         if (node.pinned) continue;
         const auto push = [&](std::uint32_t number, const dvec3& force, const dvec3& at) {
-            local_.push(number, particle(contact.node), per_substep * force, at);
+            local_.push(number, per_substep * force, at);
         };
         dvec3 left = node.force;
         const ContactScratch::LinkContact* beside = nullptr;
@@ -64,20 +65,22 @@ void ChainNewton::push_colliders() const {
 }
 
 void ImplicitStep::push_colliders(const std::vector<ClothContact>& contacts) const {
+    if (!local_.records_pushes) return;
     for (const ClothContact& each : contacts) {
         const IslandScratch::Near& near = local_.near[each.near];
         const dvec3 by = contact_point(each, scratch_.x) - each.at;
         const double along = dot(by, each.normal);
         const dvec3 force = stiffness_ * (each.gap + along) * each.normal +
                             each.drag * (each.slip + by - along * each.normal);
-        local_.push(near.collider, each.a, (mass_ / h_) * force, each.at);
+        local_.push(near.collider, (mass_ / h_) * force, each.at);
     }
 }
 
 void Substep::push_touched() {
     for (const std::uint32_t i : local_.touched) {
         Touch& touch = scratch_.touch[i];
-        local_.push(touch.collider, i, (-state_.mass[i] / h_) * touch.moved, scratch_.x[i]);
+        if (local_.records_pushes)
+            local_.push(touch.collider, (-state_.mass[i] / h_) * touch.moved, scratch_.x[i]);
         touch = Touch{};
     }
     local_.touched.clear();
@@ -116,7 +119,7 @@ void Substep::push_attached() {
         if (scratch_.weight[i] > 0.0) return;
         const auto pin = std::ranges::lower_bound(state_.pins, i, {}, &Pin::particle);
         if (pin->collider)
-            local_.push(scratch_.collider_at[pin->collider.index], i, (1.0 / h_) * force, scratch_.x[i]);
+            local_.push(scratch_.collider_at[pin->collider.index], (1.0 / h_) * force, scratch_.x[i]);
     };
     each_particle([&](std::size_t i) {
         pull(static_cast<std::uint32_t>(i), (h_ * h_ * state_.mass[i]) * acceleration_);
@@ -151,22 +154,36 @@ void Substep::push_attached() {
     }
 }
 
-/// In an order that does not depend on threads.
-void Workspace::Parts::add_impulses(const State& state) {
-    pushes.clear();
+void Workspace::Parts::begin_impulses(const State& state, bool record) {
+    impulses.clear();
     for (IslandScratch& thread : threads) {
-        pushes.insert(pushes.end(), thread.pushes.begin(), thread.pushes.end());
+        thread.records_pushes = record;
         thread.pushes.clear();
+        if (record) thread.pushes.reserve(2 * state.position.size());
     }
-    std::ranges::sort(pushes, {}, [](const Push& each) {
-        return std::array<std::size_t, 3>{each.collider, each.particle, each.order};
-    });
-    for (const Push& each : pushes) {
-        ColliderImpulse& to = impulses[each.collider];
-        const dvec3 middle(centre(state.colliders[each.collider].shape));
-        to.linear += each.impulse;
-        to.angular += detail::cross(each.at - middle, each.impulse);
+    for (const Collider& each : state.colliders)
+        if (record) impulses.push_back({.collider = each.id});
+}
+
+/// In the order of islands, whatever threads took them: each thread takes some in this order.
+void Workspace::Parts::add_impulses(const State& state) {
+    for (IslandScratch& thread : threads) thread.first_push = 0;
+    const auto island = [](const IslandScratch& thread) {
+        return thread.first_push < thread.pushes.size() ? thread.pushes[thread.first_push].island : ~0u;
+    };
+    for (;;) {
+        IslandScratch& next = *std::ranges::min_element(threads, {}, island);
+        const std::uint32_t number = island(next);
+        if (number == ~0u) break;
+        for (; island(next) == number; ++next.first_push) {
+            const Push& push = next.pushes[next.first_push];
+            ColliderImpulse& to = impulses[push.collider];
+            const dvec3 middle(centre(state.colliders[push.collider].shape));
+            to.linear += push.impulse;
+            to.angular += detail::cross(push.at - middle, push.impulse);
+        }
     }
+    for (IslandScratch& thread : threads) thread.pushes.clear();
 }
 
 std::span<const ColliderImpulse> Workspace::Parts::reported_impulses() {

@@ -44,8 +44,7 @@ struct Touch {
 
 /// An impulse of a particle on a collider.
 struct Push {
-    std::uint32_t collider = 0, particle = 0;
-    std::size_t order = 0;  ///< among those of its particle
+    std::uint32_t collider = 0, island = 0;
     glm::dvec3 impulse{0.0}, at{0.0};
 };
 
@@ -306,17 +305,18 @@ struct IslandScratch {
         std::uint32_t group = 0, part = 0, chain = no_chain;
         std::optional<Scratch::Slowdown> slowdown{};  ///< empty until its energy is balanced
     };
-    std::vector<Member> members;      ///< by group
+    std::vector<Member> members;  ///< by group
+    bool records_pushes = false;
     std::vector<Push> pushes;         ///< in this substep, of all the thread's islands
     std::size_t first_push = 0;       ///< of the island
+    std::uint32_t island = 0;         ///< its index in the plan
     bool attached = false;            ///< a particle of the island is attached to a collider
     bool at_edge = false;             ///< a particle is near the edge of the world, which may hold it
     tendril::detail::ForkJoin loops;  ///< over a cloth; idle threads help
     Advance done;                     ///< in this substep; `passes`: maximum over the islands
 
-    void push(std::uint32_t collider, std::uint32_t particle, const glm::dvec3& impulse,
-              const glm::dvec3& at) {
-        pushes.push_back({collider, particle, pushes.size(), impulse, at});
+    void push(std::uint32_t collider, const glm::dvec3& impulse, const glm::dvec3& at) {
+        pushes.push_back({collider, island, impulse, at});
     }
 };
 
@@ -427,7 +427,6 @@ struct Workspace::Parts {
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
     std::vector<TornLink> torn;             ///< in the last advance()
-    std::vector<Push> pushes;               ///< in this substep
     std::vector<ColliderImpulse> impulses;  ///< in the last advance(), by collider
     /// Sizes match the plan, and the last advance() was not cut short.
     bool prepared = false;
@@ -444,6 +443,7 @@ struct Workspace::Parts {
     void sum_reports(Advance& done);
     void store_contacts(State& state);
     // impulses.cpp
+    void begin_impulses(const State& state, bool record);
     void add_impulses(const State& state);
     std::span<const ColliderImpulse> reported_impulses();
 };

@@ -167,7 +167,7 @@ void Substep::clamp_to_world() {
 
 void Substep::commit() {
     push_touched();
-    if (local_.attached) push_attached();
+    if (local_.attached && local_.records_pushes) push_attached();
     const bool pushed = local_.pushes.size() > local_.first_push;
     const std::optional<dvec3> before = pushed ? momentum(true) : std::nullopt;
     each_particle([&](std::size_t i) {

@@ -106,13 +106,7 @@ void Workspace::Parts::prepare(const State& state) {
     scratch.colliders.resize(state.colliders.size());
     if (plan.tears) torn.reserve(state.links.size());
     if (detail::has_air(state.settings)) scratch.wind_move.assign(state.position.size(), glm::dvec3(0.0));
-    const std::size_t touching = state.colliders.empty() ? 0 : 2 * state.position.size();
-    for (IslandScratch& thread : threads) {
-        thread.close.reserve(state.colliders.size());
-        thread.pushes.reserve(touching);
-    }
-    pushes.reserve(touching);
-    for (const Collider& each : state.colliders) impulses.push_back({.collider = each.id});
+    for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());
     for (std::uint32_t i = 0; i < state.colliders.size(); ++i)
         scratch.collider_at[state.colliders[i].id.index] = i;

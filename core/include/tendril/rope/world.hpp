@@ -84,8 +84,8 @@ struct Advance {
     std::span<const TornLink> torn{};  ///< links over their body's tear strain, by substep, then in the order
                                        ///< of State::links; a rope loses one in a substep, the most strained.
                                        ///< Valid until the workspace's next call
-    /// By collider that bodies pushed or pulled, in the order of State::colliders. Colliders do not feel
-    /// them: they move as told. Valid until the workspace's next call.
+    /// By collider that bodies pushed or pulled, in the order of State::colliders; empty unless asked for.
+    /// Colliders do not feel them: they move as told. Valid until the workspace's next call.
     std::span<const ColliderImpulse> impulses{};
     bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
                            ///< from: nothing was done
@@ -93,6 +93,7 @@ struct Advance {
 
 struct AdvanceOptions {
     std::uint64_t max_substeps = std::uint64_t{1} << 40;  ///< more are dropped and counted
+    bool impulses = false;  ///< fills Advance::impulses; up to 8 % more work, where all lies on colliders
 };
 
 class World {
