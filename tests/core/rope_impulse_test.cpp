@@ -134,6 +134,30 @@ TEST(RopeImpulse, LetsABallRestOnABridge) {
     EXPECT_NEAR(force_on(world, "ball", 1.0).linear.y, 9.81 * mass, 0.01 * 9.81 * mass);
 }
 
+/// Threads take islands in any order, and the sums are the same.
+TEST(RopeImpulse, IsTheSameOnAnyNumberOfThreads) {
+    World start = world_with({.friction = 0.5f});
+    start.add_collider("ground", rope::Plane{});
+    start.add_collider("ball", rope::Sphere{{0.5f, 0, 1}, 0.3f});
+    for (int i = 0; i < 40; ++i) {
+        const float z = 0.05f * static_cast<float>(i);
+        start.add_rope({.from = {0, 0.1f, z}, .to = {1, 0.1f + 0.01f * z, z}, .segments = 64});
+    }
+    std::vector<std::vector<rope::ColliderImpulse>> seen;
+    for (const int threads : {1, 2, 3}) {
+        rope::World world = start;
+        rope::Workspace workspace;
+        allow(workspace.use_threads(threads));
+        seen.emplace_back();
+        for (int i = 0; i < 20; ++i) {
+            const auto impulses = world.advance(1.0 / 60.0, workspace, {.impulses = true}).impulses;
+            seen.back().insert(seen.back().end(), impulses.begin(), impulses.end());
+        }
+        EXPECT_EQ(seen.back(), seen.front()) << threads;
+    }
+    EXPECT_GT(seen.front().size(), 20u);
+}
+
 TEST(RopeImpulse, IsNotReportedWhereNothingTouches) {
     World world;
     world.add_collider("far", rope::Sphere{{5, 0, 0}, 0.3f});

@@ -59,6 +59,7 @@ struct ColliderImpulse {
     ColliderId collider;
     glm::dvec3 linear{0.0};   ///< N s
     glm::dvec3 angular{0.0};  ///< N m s, about the collider's centre
+    bool operator==(const ColliderImpulse&) const = default;
 };
 
 /// Report of one call of advance().
