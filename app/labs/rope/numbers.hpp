@@ -46,7 +46,7 @@ std::vector<OverPulled> over_pulled(const NamedWorld& world);
 /// draws its ends together, and where pins pull inextensible links: that force has no limit.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
-/// The force at which a rope tears: "100.00 N", or "too stiff to tear". Empty if it never tears, and for
+/// The force at which a rope tears: "100.00 N", or "only by its pins". Empty if it never tears, and for
 /// other bodies.
 std::string tearing_text(const NamedWorld& world, const rope::Body& body);
 /// "rope tore at particle 12, under 100.00 N; 2 more tears"; at least one.

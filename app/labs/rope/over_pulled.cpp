@@ -236,7 +236,7 @@ std::string tearing_text(const NamedWorld& world, const rope::Body& body) {
     double soft = world.world().compliance(body, rope::Link::Kind::Stretch);
     if (settings.solver != rope::Solver::Relaxation) soft += static_cast<double>(settings.compliance);
     if (soft > 0.0) return force_text(static_cast<float>(body.tear / soft));
-    return settings.solver == rope::Solver::Direct ? "too stiff to tear" : "";
+    return settings.solver == rope::Solver::Direct ? "only by its pins" : "";
 }
 
 std::string torn_text(const std::vector<RopeTear>& tears) {

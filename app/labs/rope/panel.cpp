@@ -207,7 +207,9 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
         const std::string force = name == "tear" ? tearing_text(world, body) : "";
         if (force.empty()) continue;
         reading("", "%s", force.c_str());
-        explain("The force that stretches it to this strain.");
+        explain(
+            "The force that stretches it so far. A rope that cannot stretch tears only where pins pull it "
+            "apart.");
     }
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
