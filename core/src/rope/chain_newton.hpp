@@ -62,6 +62,8 @@ class ChainNewton {
     bool update_link(ContactScratch::LinkContact& contact);
     void apply_link_friction(const ContactScratch::LinkContact& contact);
     void push_colliders() const;
+    void push_planes(const ContactScratch::Contact& contact, const detail::NodeContact& effect,
+                     double per_substep) const;
     void begin_bends();
     void save_state();
     void scale_step(double part);

@@ -168,7 +168,7 @@ void Substep::apply_friction(std::uint32_t i, std::uint32_t body) {
                  limit = detail::friction(state_, state_.bodies[body]) * normal_part;
     if (size > limit) wanted = (limit / size) * wanted;
     scratch_.x[i] += wanted - friction;
-    touch.moved += wanted - friction;
+    touch.record(touch.collider, wanted - friction);
     touch.displacement = normal_part * touch.normal + wanted;
 }
 
@@ -203,7 +203,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     record_impact(body, depth);
     x += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
-    contact.moved += x - was;
+    contact.record(number, x - was);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // a second surface
     contact.displacement += depth * surface.normal;
     apply_friction(i, body);
@@ -236,7 +236,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
         if (by <= 0.0) return;
         scratch_.x[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);
-        contact.moved += by * surface.normal;
+        contact.record(number, by * surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.displacement += by * surface.normal;
         apply_friction(i, body);

@@ -193,10 +193,10 @@ void Substep::depenetrate() {
                   if (depth <= (keeps ? penetration_slop : depth_tolerance)) return;
                   if (!move_out(neighbours, x, of.radius)) ++report_.unresolved;
                   record_impact(body, detail::length(x - was));
-                  if (x == was) return;
+                  if (x == was || !local_.records_pushes) return;
                   const auto by = std::ranges::find(scratch_.colliders, shape, &Scratch::Moving::shape);
-                  touch(i, static_cast<std::uint32_t>(by - scratch_.colliders.begin()), detail::unit(x - was))
-                      .moved += x - was;
+                  const auto number = static_cast<std::uint32_t>(by - scratch_.colliders.begin());
+                  touch(i, number, detail::unit(x - was)).record(number, x - was);
               });
 }
 

@@ -275,7 +275,8 @@ void Substep::relax_failed_bodies() {
         const Body& body = state_.bodies[b];
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
             scratch_.x[i] = scratch_.base[i];
-            scratch_.touch[i].displacement = scratch_.touch[i].moved = dvec3(0.0);
+            scratch_.touch[i].displacement = dvec3(0.0);
+            scratch_.touch[i].shares = {};
         }
     }
     // Bodies that no link joins to these are already solved.

@@ -1,15 +1,15 @@
 // The impulses that bodies give colliders: equal and opposite to those of their contacts, as each solver
-// computed them. Energy bounds and shortened steps change motion after that, without a collider.
+// computed them. What energy bounds and shortened steps change after that is left out.
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include "rope/build.hpp"
 #include "rope/chain_newton.hpp"
 #include "rope/geometry.hpp"
 #include "rope/implicit_step.hpp"
 #include "rope/substep.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -19,12 +19,20 @@ using glm::dvec3;
 
 }  // namespace
 
-/// Each node bears what its contacts leave of its forces: those of links are known; of several planes each
-/// takes its normal part, and the deepest, which has the friction, the rest.
+/// A collider gets the force that its contacts hold: what they add to a node's other forces, which `force`
+/// sums, for those of nodes; a link's is known.
 void ChainNewton::push_colliders() const {
     if (!local_.records_pushes) return;
     const double per_substep = 1.0 / state_.settings.substep;
-    const auto link_contact = [&](std::uint32_t bond) -> const ContactScratch::LinkContact* {
+    const auto push = [&](std::uint32_t number, const dvec3& force, const dvec3& at) {
+        local_.push(number, per_substep * force, at);
+    };
+    for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
+        const ContactScratch::LinkContact& link = s_.link_contacts[c];
+        const detail::BondContact& effect = s_.bond_effects[c];
+        if (effect.active) push(link.collider, -effect.multiplier * effect.normal, link.point);
+    }
+    const auto link_at = [&](std::uint32_t bond) -> const ContactScratch::LinkContact* {
         if (bond >= s_.bonds.size() || s_.bonds[bond].contact < 0) return nullptr;
         const auto c = static_cast<std::size_t>(s_.bonds[bond].contact);
         return s_.bond_effects[c].active ? &s_.link_contacts[c] : nullptr;
@@ -32,84 +40,78 @@ void ChainNewton::push_colliders() const {
     for (std::size_t c = 0; c < s_.contacts.size(); ++c) {
         const ContactScratch::Contact& contact = s_.contacts[c];
         const detail::ChainNode& node = s_.nodes[contact.node];
-        const detail::NodeContact& effect = s_.node_effects[c];
         if (node.pinned) continue;
-        const auto push = [&](std::uint32_t number, const dvec3& force, const dvec3& at) {
-            local_.push(number, per_substep * force, at);
-        };
-        dvec3 left = node.force;
-        const ContactScratch::LinkContact* beside = nullptr;
-        for (const bool before : {true, false}) {
-            const ContactScratch::LinkContact* const link = link_contact(contact.node - (before ? 1 : 0));
-            if (link == nullptr) continue;
-            const detail::BondContact& bond =
-                s_.bond_effects[static_cast<std::size_t>(s_.bonds[link->bond].contact)];
-            const double share = (before ? bond.at : 1.0 - bond.at) * bond.multiplier;
-            push(link->collider, -share * bond.normal, link->point);
-            left += share * bond.normal;
-            beside = link;
+        if (s_.node_effects[c].planes > 0) {
+            push_planes(contact, s_.node_effects[c], per_substep);
+            continue;
         }
-        for (int p = effect.planes; p-- > 0;) {
-            const dvec3& normal = effect.normal[p];
-            const dvec3 force = p == 0 ? left : std::min(0.0, dot(left, normal)) * normal;
-            const std::span<const ContactScratch::Plane> planes =
-                std::span(s_.planes).subspan(contact.first, contact.count);
-            const auto plane = std::ranges::find_if(planes, [&](const ContactScratch::Plane& each) {
-                return each.active && each.normal == normal;
-            });
-            push(plane->collider, force, node.x);
-            left -= force;
-        }
-        if (effect.planes == 0 && beside != nullptr) push(beside->collider, left, beside->point);
+        const ContactScratch::LinkContact *const next = link_at(contact.node), *const last =
+                                                                                   link_at(contact.node - 1);
+        if (next != nullptr || last != nullptr)  // friction
+            push((next != nullptr ? next : last)->collider, node.force, node.x);
     }
 }
 
+/// Parts a node's force: to each plane along its normal, never pulling, by Gauss and Seidel; the rest is
+/// friction on the deepest.
+void ChainNewton::push_planes(const ContactScratch::Contact& contact, const detail::NodeContact& effect,
+                              double per_substep) const {
+    constexpr int rounds = 16;
+    const detail::ChainNode& node = s_.nodes[contact.node];
+    std::array<double, detail::NodeContact::max_planes> parts{};
+    dvec3 rest = node.force;
+    for (int i = 0; i < (effect.planes > 1 ? rounds : 1); ++i)
+        for (int p = 0; p < effect.planes; ++p) {
+            double& part = parts[static_cast<std::size_t>(p)];
+            const double now = std::max(0.0, part - dot(rest, effect.normal[p]));
+            rest += (now - part) * effect.normal[p];
+            part = now;
+        }
+    const auto planes = std::span(s_.planes).subspan(contact.first, contact.count);
+    for (int p = 0; p < effect.planes; ++p) {
+        const auto plane = std::ranges::find_if(planes, [&](const ContactScratch::Plane& each) {
+            return each.active && each.normal == effect.normal[p];
+        });
+        if (plane == planes.end()) continue;  // not a number
+        const dvec3 force = -parts[static_cast<std::size_t>(p)] * effect.normal[p];
+        local_.push(plane->collider, per_substep * (p == 0 ? force + rest : force), node.x);
+    }
+}
+
+/// Without pins the sum is the momentum that the bodies lost: solvers of cloth stop before their forces
+/// balance.
 void ImplicitStep::push_colliders(const std::vector<ClothContact>& contacts) const {
     if (!local_.records_pushes) return;
+    const std::size_t first = local_.pushes.size();
+    dvec3 off(0.0);
+    bool pinned = false;
+    each_particle([&](std::size_t i) {
+        pinned = pinned || scratch_.weight[i] == 0.0;
+        off += (state_.mass[i] / h_) * (scratch_.base[i] - scratch_.x[i]);
+    });
+    double whole = 0.0;
     for (const ClothContact& each : contacts) {
-        const IslandScratch::Near& near = local_.near[each.near];
         const dvec3 by = contact_point(each, scratch_.x) - each.at;
         const double along = dot(by, each.normal);
         const dvec3 force = stiffness_ * (each.gap + along) * each.normal +
                             each.drag * (each.slip + by - along * each.normal);
-        local_.push(near.collider, (mass_ / h_) * force, each.at);
+        local_.push(local_.near[each.near].collider, (mass_ / h_) * force, each.at);
+        off -= local_.pushes.back().impulse;
+        whole += detail::length(local_.pushes.back().impulse);
     }
+    for (Push& each : std::span(local_.pushes).subspan(first))
+        if (!pinned && whole > 0.0) each.impulse += (detail::length(each.impulse) / whole) * off;
 }
 
 void Substep::push_touched() {
     for (const std::uint32_t i : local_.touched) {
         Touch& touch = scratch_.touch[i];
-        if (local_.records_pushes)
-            local_.push(touch.collider, (-state_.mass[i] / h_) * touch.moved, scratch_.x[i]);
+        for (const Touch::Share& each : touch.shares)
+            if (local_.records_pushes && each.moved != dvec3(0.0))
+                local_.push(each.collider, (-state_.mass[i] / h_) * each.moved, scratch_.x[i]);
         touch = Touch{};
     }
     local_.touched.clear();
-}
-
-/// The momentum times h that the island would have without solvers, or that it has. Empty if it has pins.
-std::optional<dvec3> Substep::momentum(bool free) const {
-    dvec3 sum(0.0);
-    bool pinned = false;
-    each_particle([&](std::size_t i) {
-        pinned = pinned || scratch_.weight[i] == 0.0;
-        sum += state_.mass[i] * (free ? scratch_.base[i] - state_.position[i] : state_.displacement[i]);
-    });
-    if (pinned) return {};
-    return sum;
-}
-
-/// Makes the sum of the island's pushes the momentum that it lost, `lost` over h: solvers stop before their
-/// forces balance exactly.
-void Substep::balance_pushes(const dvec3& lost) {
-    const std::span<Push> pushes = std::span(local_.pushes).subspan(local_.first_push);
-    dvec3 off = (1.0 / h_) * lost;
-    double whole = 0.0;
-    for (const Push& each : pushes) {
-        off -= each.impulse;
-        whole += detail::length(each.impulse);
-    }
-    for (Push& each : pushes)
-        if (whole > 0.0) each.impulse += (detail::length(each.impulse) / whole) * off;
 }
 
 /// The pull of links, ties and bending on attached particles, and their weight. Call before the state is
@@ -125,6 +127,7 @@ void Substep::push_attached() {
         pull(static_cast<std::uint32_t>(i), (h_ * h_ * state_.mass[i]) * acceleration_);
     });
     const auto pull_both = [&](std::uint32_t a, std::uint32_t b, double multiplier) {
+        if (scratch_.weight[a] + scratch_.weight[b] == 0.0) return;  // nothing solves it
         const dvec3 force = multiplier * detail::unit(scratch_.x[b] - scratch_.x[a]);
         pull(a, force);
         pull(b, -force);
@@ -167,16 +170,17 @@ void Workspace::Parts::begin_impulses(const State& state, bool record) {
 
 /// In the order of islands, whatever threads took them: each thread takes some in this order.
 void Workspace::Parts::add_impulses(const State& state) {
-    for (IslandScratch& thread : threads) thread.first_push = 0;
+    for (IslandScratch& thread : threads) thread.next_push = 0;
     const auto island = [](const IslandScratch& thread) {
-        return thread.first_push < thread.pushes.size() ? thread.pushes[thread.first_push].island : ~0u;
+        return thread.next_push < thread.pushes.size() ? thread.pushes[thread.next_push].island : ~0u;
     };
     for (;;) {
         IslandScratch& next = *std::ranges::min_element(threads, {}, island);
         const std::uint32_t number = island(next);
         if (number == ~0u) break;
-        for (; island(next) == number; ++next.first_push) {
-            const Push& push = next.pushes[next.first_push];
+        for (; island(next) == number; ++next.next_push) {
+            const Push& push = next.pushes[next.next_push];
+            if (!(detail::length(push.impulse) < max_magnitude)) continue;  // not a number
             ColliderImpulse& to = impulses[push.collider];
             const dvec3 middle(centre(state.colliders[push.collider].shape));
             to.linear += push.impulse;
@@ -187,7 +191,9 @@ void Workspace::Parts::add_impulses(const State& state) {
 }
 
 std::span<const ColliderImpulse> Workspace::Parts::reported_impulses() {
-    std::erase_if(impulses, [](const ColliderImpulse& each) { return each.linear == dvec3(0.0); });
+    std::erase_if(impulses, [](const ColliderImpulse& each) {
+        return each.linear == dvec3(0.0) && each.angular == dvec3(0.0);
+    });
     return impulses;
 }
 

@@ -37,9 +37,19 @@ struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
     glm::dvec3 collider_displacement{0.0};  ///< displacement of the collider in the substep
-    glm::dvec3 moved{0.0};                  ///< by this and later colliders, metres
     std::uint32_t collider = 0;
     bool touching = false;
+    /// The displacement by the first collider, and by all others as if by the second.
+    struct Share {
+        std::uint32_t collider = 0;
+        glm::dvec3 moved{0.0};
+    };
+    std::array<Share, 2> shares{};
+    void record(std::uint32_t by, const glm::dvec3& moved) {
+        Share& share = shares[by == collider ? 0 : 1];
+        share.collider = by;
+        share.moved += moved;
+    }
 };
 
 /// An impulse of a particle on a collider.
@@ -308,7 +318,7 @@ struct IslandScratch {
     std::vector<Member> members;  ///< by group
     bool records_pushes = false;
     std::vector<Push> pushes;         ///< in this substep, of all the thread's islands
-    std::size_t first_push = 0;       ///< of the island
+    std::size_t next_push = 0;        ///< while impulses are added up
     std::uint32_t island = 0;         ///< its index in the plan
     bool attached = false;            ///< a particle of the island is attached to a collider
     bool at_edge = false;             ///< a particle is near the edge of the world, which may hold it

@@ -60,7 +60,6 @@ Substep::Substep(const Substep& whole, const Plan::Island& part)
 
 void Substep::run(bool measures) {
     measures_ = measures;
-    local_.first_push = local_.pushes.size();
     list_members();
     move_particles();
     find_near();
@@ -168,8 +167,6 @@ void Substep::clamp_to_world() {
 void Substep::commit() {
     push_touched();
     if (local_.attached && local_.records_pushes) push_attached();
-    const bool pushed = local_.pushes.size() > local_.first_push;
-    const std::optional<dvec3> before = pushed ? momentum(true) : std::nullopt;
     each_particle([&](std::size_t i) {
         dvec3 &x = scratch_.x[i], &position = state_.position[i], &moved = state_.displacement[i];
         // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Adding 0 removes
@@ -189,7 +186,6 @@ void Substep::commit() {
         tie.now = static_cast<float>(detail::enforced_length(tie, h_));
     }
     apply_slowdown();
-    if (before) balance_pushes(*before - *momentum(false));
 }
 
 }  // namespace tendril::rope

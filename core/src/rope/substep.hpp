@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 
 #include "rope/scratch.hpp"
@@ -72,8 +71,6 @@ class Substep : IslandStep {
 
     // impulses.cpp
     void push_touched();
-    std::optional<glm::dvec3> momentum(bool free) const;
-    void balance_pushes(const glm::dvec3& lost);
     void push_attached();
 
     // depenetration.cpp: particles still inside after the last pass
