@@ -67,7 +67,7 @@ bool contains_text(std::string_view text, std::string_view part) {
 
 bool search_line(const char* id, const char* hint, SearchText& typed) {
     const int last = std::exchange(typed.hits, 0) - 1;
-    typed.found = false;
+    typed.rows = typed.found = 0;
     const bool was_empty = typed.empty();
     ImGui::SetNextItemWidth(-1.0f);
     typed.entered = ImGui::InputTextWithHint(id, hint, typed.text.data(), typed.text.size(),
@@ -133,8 +133,9 @@ bool begin_menu(const char* id, bool pressed) {
 bool list_row(const std::string& title, bool chosen, const char* why_not,
               const std::optional<glm::vec3>& swatch) {
     SearchText& typed = open_list().typed;
+    ++typed.rows;
     if (!contains_text(title, typed.text.data())) return false;
-    typed.found = true;
+    ++typed.found;
     if (why_not != nullptr) {
         ImGui::Selectable((title + ": " + why_not).c_str(), chosen, ImGuiSelectableFlags_Disabled);
         return false;
@@ -153,7 +154,7 @@ bool list_row(const std::string& title, bool chosen, const char* why_not,
 
 void end_list() {
     const OpenList& list = open_list();
-    if (!list.typed.empty() && !list.typed.found) note("Nothing here contains this.");
+    if (list.typed.rows > 0 && list.typed.found == 0) note("No matches.");
     ImGui::EndChild();
     if (list.in_field)
         ImGui::EndCombo();

@@ -16,11 +16,11 @@ namespace tendril::app {
 /// highlights the first hit, Up and Down move the highlight, Enter chooses it, Escape clears the text.
 struct SearchText {
     std::array<char, 64> text{};
-    int at = -1;           ///< the highlighted hit; negative: none
-    int hits = 0;          ///< the last frame's, or this one's so far
-    bool found = false;    ///< a row of this frame contains the text; greyed ones are no hits
-    bool moved = false;    ///< the highlight moved in this frame
-    bool entered = false;  ///< Enter was pressed in this frame
+    int at = -1;              ///< the highlighted hit; negative: none
+    int hits = 0;             ///< the last frame's, or this one's so far
+    int rows = 0, found = 0;  ///< in this frame so far: all, and those that contain the text, greyed too
+    bool moved = false;       ///< the highlight moved in this frame
+    bool entered = false;     ///< Enter was pressed in this frame
 
     bool empty() const { return text[0] == '\0'; }
 };

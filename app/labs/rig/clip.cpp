@@ -108,28 +108,22 @@ FrameLeft left_of(const rig::BackwardReport& report, const std::vector<ClipBone>
 
 }  // namespace
 
-void check_bones(const RigPart& part) {
-    if (clip_bones(part.rig, part.state->elements).empty())
-        throw std::invalid_argument("the rig has no bones to record");
-}
-
-RigClip record_clip(const RigPart& part, std::uint32_t first, std::size_t frames, rig::Workspace& scratch) {
-    check_bones(part);
+RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch) {
     TakeRunner take(part, scratch);
     const std::vector<ClipBone> bones = clip_bones(part.rig, take.state().elements);
+    if (bones.empty()) throw std::invalid_argument("the rig has no bones to record");
     if (frames > max_clip_frames || (frames + 1) * bones.size() > max_clip_poses)
         throw std::invalid_argument("a clip of " + std::to_string(frames) + " frames of " +
                                     std::to_string(bones.size()) + " bones is over the maximum of " +
                                     std::to_string(max_clip_frames) + " frames and " +
                                     std::to_string(max_clip_poses) + " poses");
-    if ((first + frames) * part.rig.work() > max_record_work)
+    if (frames * part.rig.work() > max_record_work)
         throw std::invalid_argument("a clip of " + std::to_string(frames) +
                                     " frames of so large a rig would take too long to record");
-    RigClip clip{.bones = {}, .poses = {}, .began = part.take.began + first};
+    RigClip clip{.bones = {}, .poses = {}, .began = part.take.began};
     for (const ClipBone& bone : bones)
         clip.bones.push_back(part.rig.definition().elements[bone.element].name);
     clip.poses.reserve((frames + 1) * bones.size());
-    for (std::uint32_t i = 0; i < first; ++i) take.tick();
     append_frame(clip.poses, bones, take.state().elements);
     for (std::size_t i = 0; i < frames; ++i) {
         take.tick();

@@ -10,11 +10,9 @@
 
 namespace tendril::app {
 
-/// Throws std::invalid_argument if the rig has no bones.
-void check_bones(const RigPart& part);
-/// Records tick `first` of the take and the next `frames`. Throws what check_bones would throw, or
-/// std::invalid_argument if the clip would be too large or take too long.
-RigClip record_clip(const RigPart& part, std::uint32_t first, std::size_t frames, rig::Workspace& scratch);
+/// Records the start of the take and its first `frames` ticks. Throws std::invalid_argument if the rig has no
+/// bones, or if the clip would be too large or take too long.
+RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
 
 /// The rig's bones and the clip, as the writers of files take them. Throws std::invalid_argument if there is
 /// no clip, or if its bones differ from the rig's.

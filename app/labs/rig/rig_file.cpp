@@ -159,7 +159,7 @@ TakeKey read_key(const JsonPlace& place, const RigPart& part) {
 Json take_json(const RigPart& part) {
     const RigTake& take = part.take;
     Json json{{"began", take.began}};
-    if (take.recording) json["recording"] = *take.recording;
+    if (take.recording) json["recording"] = true;
     if (!take.start) return json;
     json["tick"] = take.tick;
     json["last"] = take.last;
@@ -174,9 +174,8 @@ RigTake read_take(const JsonPlace& place, const RigPart& part) {
                  .keys = nullptr,
                  .tick = 0,
                  .last = 0,
-                 .began = place["began"].count(max_recording_tick)};
-    if (const auto recording = place.optional("recording"))
-        take.recording = static_cast<std::uint32_t>(recording->count(max_take_ticks));
+                 .began = place["began"].count(max_recording_tick),
+                 .recording = place.has("recording") && place["recording"].flag()};
     if (!place.has("start")) return take;
     check_members(place["start"], {"controls", "curves", "poses", "units"});
     take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));

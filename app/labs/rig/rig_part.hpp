@@ -5,7 +5,6 @@
 // rig is the definition with the library's compiled data; copies share it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -108,11 +107,9 @@ struct RigTake {
     std::uint32_t tick = 0;                            ///< the current tick
     std::uint32_t last = 0;                            ///< the last tick played
     std::uint64_t began = 0;                           ///< the tick of the lab's time where the take begins
-    std::optional<std::uint32_t> recording{};          ///< the tick at which a clip's recording began
+    bool recording = false;                            ///< until rig.clip.record keeps it as a clip
 
     std::uint64_t now() const { return began + tick; }
-    /// While recording: the ticks from its start to the current one, or back to it.
-    std::uint32_t recorded() const { return std::max(*recording, tick) - std::min(*recording, tick); }
     bool operator==(const RigTake& other) const;
 };
 

@@ -150,9 +150,12 @@ void begin_take(RigPart& part) {
     part.rates.reset();  // the rates belong to the old take
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
-    const bool recording = part.take.recording.has_value();
-    part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};
-    if (recording) part.take.recording = 0;
+    part.take = {.start = nullptr,
+                 .keys = nullptr,
+                 .tick = 0,
+                 .last = 0,
+                 .began = part.take.now(),
+                 .recording = part.take.recording};
 }
 
 void key_control(RigPart& part, std::size_t element) {
@@ -200,7 +203,7 @@ void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
 }
 
 bool time_moves(const RigPart& part) {
-    if (part.moving || !part.walks.empty()) return true;
+    if (part.moving || part.take.recording || !part.walks.empty()) return true;
     if (!part.take.keys || part.take.keys->empty()) return false;
     const KeysOfTick here = keys_at(part.take, part.take.tick);
     return part.take.keys->back().tick > part.take.tick ||

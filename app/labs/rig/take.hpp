@@ -8,8 +8,7 @@
 
 namespace tendril::app {
 
-/// Starts a new take at the current time, because the future no longer follows from the take so far. A
-/// recording starts anew with it.
+/// Starts a new take at the current time, because the future no longer follows from the take so far.
 void begin_take(RigPart& part);
 /// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);

@@ -276,30 +276,29 @@ std::uint32_t ticks_worth_looking_at(const RigPart& part) {
     return 600;
 }
 
-/// Recording needs the simulation to run.
+/// Starts a new take, and plays.
 void start_recording(Workspace& workspace, const Arguments&) {
-    change_part<RigPart>(workspace, rig_lab, [](RigPart& part, const RigPart&) {
-        check_bones(part);
-        part.take.recording = part.take.tick;
+    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
+        static_cast<void>(record_clip(part, 0, rig_runtime(workspace).workspace(part.rig)));  // refuses
+        begin_take(part);
+        part.take.recording = true;
     });
     workspace.clock.playing = true;
+    workspace.clock.replaying = false;
+    workspace.ui.incident.reset();
 }
 
 void record(Workspace& workspace, const Arguments& given) {
     change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
-        RigTake& take = part.take;
-        const std::uint32_t first = take.recording ? std::min(*take.recording, take.tick) : 0;
-        std::size_t frames = 0;
-        if (given.has("seconds"))
-            frames = static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds));
-        else
-            frames = std::min<std::size_t>(take.recording ? take.recorded() : ticks_worth_looking_at(part),
-                                           max_clip_frames);
-        if (frames == 0) throw std::invalid_argument("nothing has been played since rig.clip.start");
-        RigClip clip = record_clip(part, first, frames, rig_runtime(workspace).workspace(part.rig));
-        part.clip = std::make_shared<const RigClip>(std::move(clip));
+        if (part.take.recording && part.take.last == 0)
+            throw std::invalid_argument("nothing has been played since rig.clip.start");
+        const std::size_t frames =
+            given.has("seconds") ? static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds))
+                                 : std::min<std::size_t>(ticks_worth_looking_at(part), max_clip_frames);
+        part.clip = std::make_shared<const RigClip>(
+            record_clip(part, frames, rig_runtime(workspace).workspace(part.rig)));
         part.clip_left.reset();
-        take.recording.reset();
+        part.take.recording = false;
     });
 }
 
@@ -349,22 +348,21 @@ void cancel_rates(RigPart& part, const Arguments&) {
 
 void add_clip_commands(CommandTable& table) {
     table.add("rig.clip.start", "Start recording a clip", {},
-              "Plays, and starts recording a clip; rig.clip.record stops and keeps it", Effect::Edit,
+              "Starts a new take, and plays; rig.clip.record stops, and keeps it as a clip", Effect::Edit,
               start_recording);
     table.add("rig.clip.record", "Record the take as a clip",
-              {number_argument("seconds", "from rig.clip.start or the take's start; default: what was played",
-                               tick_seconds, max_clip)},
-              "Records the bones since rig.clip.start, or in the whole take, as a clip, one pose per frame, "
-              "60 per second",
-              Effect::Edit, record);
+              {number_argument("seconds", "from the take's start; default: what was played", tick_seconds,
+                               max_clip)},
+              "Records the bones in the take as a clip, one pose per frame, 60 per second", Effect::Edit,
+              record);
     table.add(
         "rig.clip.export", "Export the clip",
         {text_argument("path", false,
                        "a .gltf, .glb or .bvh file; default, in a window: a new .glb beside the scene")},
         "Writes the rig's bones and the recorded clip", Effect::Look, write_clip);
-    table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip; also ends a recording",
-                          [](RigPart& part, const Arguments&) {
-                              part.take.recording.reset();
+    table.add(rig_command("rig.clip.clear", "Remove the clip", {},
+                          "Ends a recording, or else removes the clip", [](RigPart& part, const Arguments&) {
+                              if (std::exchange(part.take.recording, false)) return;
                               part.clip.reset();
                               part.clip_left.reset();
                           }));

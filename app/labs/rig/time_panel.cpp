@@ -102,11 +102,11 @@ void clip_rows(const RigPart& part, Emit& emit) {
     const bool running = part.clip_left && part.clip_left->running;
     const RigTake& take = part.take;
     if (!take.recording) {
-        if (row_button("Record", 3, true, "Plays, and records how the bones move, until Stop"))
+        if (row_button("Record", 3, true, "Starts a new take, and keeps it as a clip at Stop"))
             emit("rig.clip.start");
-    } else if (const std::string seconds = fixed_text(take.recorded() * tick_seconds, 1);
-               row_button(("Stop " + seconds + " s###stop").c_str(), 3, take.recorded() > 0,
-                          "Keeps how the bones moved since Record, or since a later edit of the rig")) {
+    } else if (const std::string seconds = fixed_text(take.last * tick_seconds, 1);
+               row_button(("Stop " + seconds + " s###stop").c_str(), 3, take.last > 0,
+                          "Keeps how the bones moved since Record, or since a later change of the rig")) {
         emit("rig.clip.record");
     }
     if (running) {
@@ -116,7 +116,8 @@ void clip_rows(const RigPart& part, Emit& emit) {
                    "Backward: finds the controls for each frame; the timeline shows the errors left")) {
         emit("rig.clip.solve");
     }
-    if (row_button("Clear", 3, part.clip || take.recording, "Removes the clip, or ends the recording"))
+    if (row_button("Clear", 3, part.clip || take.recording,
+                   take.recording ? "Ends the recording" : "Removes the clip"))
         emit("rig.clip.clear");
     end_row();
     if (running)

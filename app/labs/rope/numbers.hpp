@@ -42,6 +42,8 @@ struct OverPulled {
 /// The worst for each pin, the worst of all first. Elastic links count as long enough.
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
 
+/// "12.34 N", or "25.2 MN" where hundredths are meaningless.
+std::string force_text(float newtons);
 /// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
 /// draws its ends together, and where pins pull inextensible links: that force has no limit.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
@@ -49,7 +51,7 @@ std::string tension_text(const NamedWorld& world, const RopeSelection& selection
 /// The force at which a rope tears: "100.00 N", or "only by its pins". Empty if it never tears, and for
 /// other bodies.
 std::string tearing_text(const NamedWorld& world, const rope::Body& body);
-/// "rope tore at particle 12, under 100.00 N; 2 more tears"; at least one.
+/// "rope tore at particle 12 at 100.00 N; so did 2 others"; at least one.
 std::string torn_text(const std::vector<RopeTear>& tears);
 /// The tension of a tie, if it is a number of newtons.
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);

@@ -198,13 +198,12 @@ auto ends_of(const rope::Tie& tie) {
 
 constexpr const char* unbounded = "without limit";
 
-/// "12.34 N", or "25.2 MN" where hundredths are meaningless.
+}  // namespace
+
 std::string force_text(float newtons) {
     const auto value = static_cast<double>(newtons);
     return value < 1e4 ? fixed_text(value, 2) + " N" : si_text(value, "N");
 }
-
-}  // namespace
 
 std::vector<OverPulled> over_pulled(const NamedWorld& world) {
     return PinGraph(world).worst_of_each_pin();
@@ -231,10 +230,12 @@ std::string tension_text(const NamedWorld& world, const RopeSelection& selection
 }
 
 std::string tearing_text(const NamedWorld& world, const rope::Body& body) {
-    if (body.kind != rope::Body::Kind::Rope || !(body.tear > 0.0f)) return "";
     const rope::Settings& settings = world.settings();
-    double soft = world.world().compliance(body, rope::Link::Kind::Stretch);
-    if (settings.solver != rope::Solver::Relaxation) soft += static_cast<double>(settings.compliance);
+    if (body.kind != rope::Body::Kind::Rope || !(body.tear > 0.0f) ||
+        settings.solver == rope::Solver::Relaxation)
+        return "";
+    const double soft =
+        world.world().compliance(body, rope::Link::Kind::Stretch) + static_cast<double>(settings.compliance);
     if (soft > 0.0) return force_text(static_cast<float>(body.tear / soft));
     return settings.solver == rope::Solver::Direct ? "only by its pins" : "";
 }
@@ -242,8 +243,8 @@ std::string tearing_text(const NamedWorld& world, const rope::Body& body) {
 std::string torn_text(const std::vector<RopeTear>& tears) {
     const RopeTear& first = tears.front();
     std::string text = first.body + " tore at particle " + std::to_string(first.particle);
-    if (first.tension > 0.0f) text += ", under " + force_text(first.tension);
-    if (tears.size() > 1) text += "; " + count_text(tears.size() - 1, "more tear");
+    if (first.tension > 0.0f) text += " at " + force_text(first.tension);
+    if (tears.size() > 1) text += "; so did " + count_text(tears.size() - 1, "other");
     return text;
 }
 

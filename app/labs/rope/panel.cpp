@@ -308,8 +308,10 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     glm::vec3 at = rope::centre(part.world->shape(collider));
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
     explain("Where the collider is. It can be dragged in the picture too.");
-    const auto force = std::ranges::find(part.forces, collider.id, &ColliderForce::collider);
-    reading("force", "%.2f N", force == part.forces.end() ? 0.0 : glm::length(force->newtons));
+    double force = 0.0;
+    for (const ColliderForce& each : part.forces.value_or(std::vector<ColliderForce>()))
+        if (each.collider == collider.id) force = glm::length(each.newtons);
+    reading("force", "%s", part.forces ? force_text(static_cast<float>(force)).c_str() : "time is still");
     explain("The force of ropes, cloth and hair on it: contact, friction, and what hangs on it.");
     shape_rows(collider, name, emit);
     const auto found = std::ranges::find(part.swings, name, &Swing::collider);

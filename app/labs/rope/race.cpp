@@ -29,6 +29,8 @@ void change_places(RopePart& part, rope::Solver had) {
     for (RopeRacer& rival : part.rivals) {
         if (now == had || rival.solver() != now) continue;
         std::swap<RopeRacer>(part, rival);
+        part.forces.reset();
+        part.tears.clear();
         rival.world = with_settings(rival.world, rival.world->settings(), had);
     }
 }

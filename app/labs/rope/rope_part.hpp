@@ -135,8 +135,9 @@ struct RopePart final : Part, RopeRacer {
     int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
     std::vector<RopeRacer> rivals;      ///< in a race (race.hpp)
     std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
-    std::vector<ColliderForce> forces;  ///< in the last tick, of those that bodies touch. Not saved
-    std::vector<RopeTear> tears;        ///< of bodies that exist, in the order of time. Not saved
+    /// In the last tick, of those that bodies touch; none before it. Not saved.
+    std::optional<std::vector<ColliderForce>> forces{};
+    std::vector<RopeTear> tears;  ///< of bodies that exist, in the order of time. Not saved
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;

@@ -123,7 +123,7 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
     }
     if (const std::uint64_t substeps = tick.report.substeps; substeps > 0) {
         part.forces = std::move(tick.impulses);
-        for (ColliderForce& each : part.forces)
+        for (ColliderForce& each : *part.forces)
             each.newtons /= static_cast<double>(substeps) * world->settings().substep;
     }
     const auto whole = [](const rope::State& of) {

@@ -92,14 +92,14 @@ TEST_F(ListsTest, AClickOnTheFieldOfAnOpenListClosesIt) {
     EXPECT_TRUE(is_open());
 }
 
-TEST_F(ListsTest, ItSaysThatNothingContainsTheText) {
+TEST_F(ListsTest, ItSaysThatNothingMatches) {
     open("rig");
     click(item(DrawnItem::Kind::Button, "Add a unit"));
     ASSERT_TRUE(is_open());
     DrivenApp::type("set");
-    EXPECT_FALSE(seen("Nothing here contains this."));
+    EXPECT_FALSE(seen("No matches."));
     DrivenApp::type("yzzy");
-    EXPECT_TRUE(seen("Nothing here contains this."));
+    EXPECT_TRUE(seen("No matches."));
     key("enter");
     EXPECT_TRUE(is_open());
 }

@@ -1,7 +1,5 @@
 // Clips in the Rig lab: recording, and the frames that the rig can express.
-#include <algorithm>
 #include <random>
-#include <span>
 #include <tendril/rig/explain.hpp>
 
 #include "app/io/character/read.hpp"
@@ -117,34 +115,24 @@ TEST_F(RigClips, HoldsOnlyTheTicksBetweenRecordAndStop) {
     wait(90);
     run("rig.clip.start");
     EXPECT_TRUE(workspace.clock.playing);
+    EXPECT_EQ(part().take.began, 90u);
     expect_refused("rig.clip.record", Json::object(), {"played since"});
     wait(24);
     set_folded(workspace.settings, rig_lab, false);
     EXPECT_TRUE(test::says(test::PanelReader().panel(lab(), workspace), "Stop 0.4 s"));
     EXPECT_EQ(rig_part(reopened()).take, part().take);
     run("rig.clip.record");
-    const RigClip clip = *part().clip;
-    EXPECT_EQ(clip.began, part().take.began + 90);
-    ASSERT_EQ(clip.frames(), 25u);
+    EXPECT_EQ(part().clip->began, 90u);
+    EXPECT_EQ(part().clip->frames(), 25u);
     EXPECT_FALSE(part().take.recording);
     run("undo");
-    EXPECT_EQ(part().take.recording, 90u);
-    run("redo");
-    EXPECT_FALSE(part().take.recording);
-    run("rig.clip.record");
-    ASSERT_EQ(part().clip->frames(), 115u) << "without Record, the whole take";
-    EXPECT_TRUE(std::ranges::equal(clip.poses, std::span(part().clip->poses).last(clip.poses.size())));
-    run("rig.clip.start");
-    wait(6);
-    run("rig.time", {{"tick", part().take.began + 104}});
-    run("rig.clip.record");
-    EXPECT_EQ(part().clip->began, part().take.began + 104) << "back from where it began";
-    EXPECT_EQ(part().clip->frames(), 11u);
-    run("rig.clip.start");
+    EXPECT_TRUE(part().take.recording);
     run("rig.motion", {{"name", "head"}, {"path", "still"}});
-    EXPECT_EQ(part().take.recording, 0u) << "a new take";
+    wait(10);
+    EXPECT_EQ(part().take.last, 10u) << "a new take, of a rig at rest";
     run("rig.clip.clear");
     EXPECT_FALSE(part().take.recording);
+    EXPECT_EQ(part().clip, nullptr);
 }
 
 TEST_F(RigClips, IsUndoneCancelledAndCleared) {
