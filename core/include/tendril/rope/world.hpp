@@ -51,11 +51,11 @@ struct TornLink {
     Link link;
 };
 
-/// The impulse that bodies gave a collider in one call of advance(), by contact, friction, and the particles
-/// attached to it, whose weight it includes; add their mass to the body's. An engine applies it to the rigid
-/// body that moves the collider, and moves the collider by the body's new velocity. On a taut rope that
-/// cannot stretch, this throws the body off: give the rope a compliance, about 1e-4 1/N for a few newtons.
-/// Right to 2 % at rest and in impacts; to 25 % in impacts of cloth tied to other bodies.
+/// The impulse that bodies gave a collider in one call of advance(): by contact and friction, and by the
+/// particles attached to it, with their weight. An engine applies it to its own rigid body, whose mass
+/// includes those particles, and moves the collider at the body's new velocity. A taut rope that cannot
+/// stretch throws the body off: give the rope a compliance, about 1e-4 1/N for a few newtons. The error is
+/// under 2 %, but up to 25 % when cloth tied to other bodies hits.
 struct ColliderImpulse {
     ColliderId collider;
     glm::dvec3 linear{0.0};   ///< N s
@@ -95,8 +95,8 @@ struct Advance {
 
 struct AdvanceOptions {
     std::uint64_t max_substeps = std::uint64_t{1} << 40;  ///< more are dropped and counted
-    bool impulses =
-        false;  ///< fills Advance::impulses; up to 8 % more work, if everything rests on colliders
+    /// Fills Advance::impulses; up to 9 % more work if everything rests on colliders.
+    bool impulses = false;
 };
 
 class World {
