@@ -11,7 +11,7 @@ namespace {
 
 double effort() {
     const char* const given = std::getenv("TENDRIL_TEST_EFFORT");
-    return given != nullptr ? std::atof(given) : sanitizer_factor > 1 ? 0.1 : 1.0;
+    return given != nullptr ? std::atof(given) : sanitizer_factor > 1 ? 0.05 : 1.0;
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 //
 //     LABEL(slow, "RopeGain.*");  // names as GoogleTest lists them, with * and ?
 //
-// slow: takes seconds. Starts first, and does not run under the sanitizers.
+// slow: takes seconds, here or under the sanitizers. Starts first, and does not run under the sanitizers: others run
+// the same code there.
 // nightly: runs in .ci/nightly alone.
 // pictures, window: compare pictures; start the program in a window.
 #pragma once
@@ -39,7 +40,7 @@ inline constexpr int sanitizer_factor = 6;
 inline constexpr int sanitizer_factor = 1;
 #endif
 
-/// A test's number of rounds: `usual`, a tenth of them under the sanitizers, or `usual` times
+/// A test's number of rounds: `usual`, a twentieth of them under the sanitizers, or `usual` times
 /// TENDRIL_TEST_EFFORT. At least 1.
 int rounds(int usual);
 /// Whether a round of a sweep runs: all of them, or one in ten under the sanitizers.

@@ -5,6 +5,7 @@
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -311,6 +312,8 @@ class HumanoidBalanceSizes : public HumanoidBalance, public testing::WithParamIn
   protected:
     HumanoidBalanceSizes() : HumanoidBalance(GetParam()) {}
 };
+
+LABEL(slow, "Sizes/HumanoidBalanceSizes.*");
 
 TEST_P(HumanoidBalanceSizes, BalanceNeverGetsWorseAndReachIsNearlyKept) {
     std::mt19937 random(11);

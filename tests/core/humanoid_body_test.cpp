@@ -70,6 +70,7 @@ class HumanoidBody : public testing::TestWithParam<bool>, protected Figured {
 LABEL(slow, "Limits/HumanoidBody.TargetsWhereTheClipHasTheEffectorsChangeNothing/*");
 LABEL(slow, "Limits/HumanoidBody.FollowsTargetsInAndOutOfReachWithoutALeap/*");
 LABEL(slow, "Limits/HumanoidBody.ASlowTargetGivesASlowPoseAndAStillOneAStillPose/*");
+LABEL(slow, "Limits/HumanoidBody.KeepsLengthsAndLimitsForAnyTargets/none");
 
 TEST_P(HumanoidBody, ReachesFiveTargetsWithinAMillimetre) {
     RandomPoses random(1);

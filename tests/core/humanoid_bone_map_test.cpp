@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "humanoid_figure.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -98,6 +99,8 @@ TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
     const Skeleton split = *Skeleton::make(std::move(nodes));
     expect_names(split, match_bones(split), names, convention.confidence);
 }
+
+LABEL(slow, "BoneMap.AMirroredFigureHasAMirroredMap");
 
 /// Some bones of one side have meaningless names, or another bone's name.
 TEST(BoneMap, AMirroredFigureHasAMirroredMap) {

@@ -3,6 +3,7 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "humanoid_feet_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -55,6 +56,8 @@ TEST_F(Footholds, APlantedSoleIsFullyOnTreads) {
                     EXPECT_GT(planted, 210) << height << " on " << depth;
                 }
 }
+
+LABEL(slow, "Footholds.KneesDoNotPop");
 
 TEST_F(Footholds, KneesDoNotPop) {
     int pops = 0, runs = 0;

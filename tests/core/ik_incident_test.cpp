@@ -1,6 +1,7 @@
 // Families of recorded arms with one fault each: lag, repeated poses, a crossed axis, a hand beyond the end
 // effector.
 #include "tendril/ik/incident.hpp"
+#include "tests/labels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,8 @@ std::size_t lag_in(const std::vector<ChainIncident>& incidents) {
         if (each.kind == IncidentKind::Lag) return static_cast<std::size_t>(each.amount);
     return 0;
 }
+
+LABEL(slow, "Incident.FindsLagDespiteNoiseAndMisses");
 
 // 150 lag, 150 do not; with noise, and tips that miss by an offset or by a fraction.
 TEST(Incident, FindsLagDespiteNoiseAndMisses) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ik_linkage_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test::ik_linkage_test {
@@ -284,6 +285,8 @@ TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
         EXPECT_EQ(report.status, nearest > 0.0 ? LinkageStatus::DeadPoint : LinkageStatus::Reached);
     }
 }
+
+LABEL(slow, "Linkage.JansensLegTakesAllItsModesInTurn");
 
 // Each of its three dyads may cross on either side.
 TEST(Linkage, JansensLegTakesAllItsModesInTurn) {

@@ -1,5 +1,6 @@
 // The bend faces its pole, root and tip do not move, and nothing jumps.
 #include "ik_hostile.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test::ik_pole_test {
 namespace {
@@ -256,6 +257,8 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
     }
     return jumps;
 }
+
+LABEL(slow, "IkPole.TheDefaultNeverJumpsAlongARandomPath");
 
 TEST(IkPole, TheDefaultNeverJumpsAlongARandomPath) {
     Random random(given_seed());

@@ -1,6 +1,7 @@
 // Refusals of Rig::make, and their messages.
 #include "rig_line.hpp"
 #include "rig_maker.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::rig {
@@ -169,6 +170,8 @@ void expect_same(const Rig& rig, const Rig& made, const Rig& before, const State
         EXPECT_EQ(rig.solve(one, 1.0 / 60, first), made.solve(other, 1.0 / 60, second));
     EXPECT_EQ(one, other);
 }
+
+LABEL(slow, "RigWithUnit.GivesTheSameRigAsMake");
 
 TEST(RigWithUnit, GivesTheSameRigAsMake) {
     int taken = 0, refused = 0, loops = 0;

@@ -29,6 +29,7 @@ double worst_stretch(World& world, double seconds) {
 }
 
 LABEL(slow, "RopeClothSizes.[!S]*");
+LABEL(slow, "RopeClothSizes.SwingsWithNearlyAllOfItsEnergy");
 
 TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
     const struct {

@@ -237,6 +237,11 @@ World groups() {
     return world;
 }
 
+LABEL(slow, "RopeCollision.ThreadsGiveTheSameBits");
+LABEL(slow, "RopeCollision.AKnotPulledTightStaysOne");
+LABEL(slow, "RopeCollision.CrossedRopesOfManySegmentsNeverPass");
+LABEL(slow, "RopeCollision.CrossedRopesUnderTensionNeverPass");
+
 TEST(RopeCollision, ThreadsGiveTheSameBits) {
     World alone = groups();
     rope::World shared = alone.core();

@@ -1,5 +1,6 @@
 // Driven grounds and boxes: friction carries the bodies on them.
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -23,6 +24,8 @@ dvec3 mean_velocity(const World& world) {
     for (std::size_t i = 0; i < world.size(); ++i) sum += dvec3(world.velocity(i));
     return sum / static_cast<double>(world.size());
 }
+
+LABEL(slow, "RopeDrive.AMovingGroundCarriesBodies");
 
 /// The body accelerates by friction times gravity, up to the speed of the ground.
 TEST(RopeDrive, AMovingGroundCarriesBodies) {

@@ -40,6 +40,8 @@ World unbalanced_rope(int segments, bool both_ends) {
 
 class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
 
+LABEL(slow, "Ropes/RopeEnergy.NeverGrowsInAMinute/256*");
+
 TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     const auto [segments, both_ends] = GetParam();
     World world = unbalanced_rope(segments, both_ends);

@@ -287,6 +287,9 @@ Shape shape_through_the_ground(Random& random) {
     }
 }
 
+LABEL(slow, "RopeGain.NoBodyIsThrownByAColliderThatAppears");
+LABEL(slow, "RopeGain.ACapeDoesNotClimbOnCapsulesAtRest");
+
 /// A collider that appears inside a body, or moves there, does not throw it.
 TEST(RopeGain, NoBodyIsThrownByAColliderThatAppears) {
     for (const Solver solver : all_solvers) {

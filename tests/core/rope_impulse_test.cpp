@@ -1,5 +1,6 @@
 // The impulses that bodies give colliders, for the engine whose bodies they are.
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -116,6 +117,9 @@ TEST(RopeImpulse, EqualsTheWeightOfARopeThatHangsFromACollider) {
             EXPECT_NEAR(felt.angular.z / (0.1 * weight(world)), -1.0, 0.02) << name(solver);
         }
 }
+
+LABEL(slow, "RopeImpulse.OnAllThatHoldABodySumsToItsWeight");
+LABEL(slow, "RopeImpulse.EqualsTheWeightAtRest");
 
 /// Held by colliders alone, a body at rest pulls and presses them by its weight: a rope over thin bars, which
 /// touch it between its particles, in a groove, and squeezed between a ball and the ground.

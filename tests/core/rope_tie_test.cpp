@@ -28,6 +28,9 @@ double gap(const World& world, rope::TieId id) {
 }
 LABEL(slow, "RopeTie.ClothStaysOnItsRope");
 LABEL(slow, "Seeds/RopeTieScenes.StayFiniteAndGainNoEnergy/[1-9]");
+LABEL(slow, "RopeTie.CableOfABridgeIsAParabola");
+LABEL(slow, "RopeTie.KeepsMomentumOfCloths");
+LABEL(slow, "RopeTie.TiesCarryTheWeightOfACloth");
 
 TEST(RopeTie, TwoRopesHangTogether) {
     for (const Solver solver : all_solvers) {

@@ -53,6 +53,7 @@ Flutter flutter_of(World& world) {
 
 LABEL(slow, "RopeWind.Fl*");
 LABEL(slow, "RopeWind.NoWindThrowsAFlag");
+LABEL(slow, "RopeWind.CarriesAFreeCloth");
 
 /// Flags beat with a Strouhal number (frequency times length over wind) of some tenths.
 TEST(RopeWind, FlagsFlutter) {

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "signal_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -265,6 +266,8 @@ TEST(SignalRates, AtItsOwnRateItEqualsThePlainRun) {
         low = std::min(low, each[0]), high = std::max(high, each[0]);
     EXPECT_NEAR(high - low, once.difference, 1e-12) << "outputs_at shows the same runs";
 }
+
+LABEL(slow, "SignalRates.FramesHaveTheSpecifiedLengths");
 
 TEST(SignalRates, FramesHaveTheSpecifiedLengths) {
     const Filter filter = filter_of("curve");

@@ -1,5 +1,6 @@
 // `tendril solve` with linkages: reference cases, sweeps, scenes, and what is refused.
 #include "tests/app/support/program.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -126,6 +127,8 @@ TEST_F(SolveLinkage, ReportsWhyItStops) {
         rows({{"linkage", "four_bar"}}, {"--drive", "crank=3600", "--max-iterations", "3"})[0]["status"],
         "IterationLimit");
 }
+
+LABEL(slow, "SolveLinkage.TakesASceneOfTheLabWithItsRangesAndTargets");
 
 TEST_F(SolveLinkage, TakesASceneOfTheLabWithItsRangesAndTargets) {
     const std::string scene = (folder_ / "scene.json").string();

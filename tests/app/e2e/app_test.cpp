@@ -1,6 +1,7 @@
 // App itself, run in the test process on an offscreen window.
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/driven_app.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -23,6 +24,8 @@ class AppTest : public testing::Test, protected DrivenApp {
         ASSERT_GT(part().target.y, 0.1f);
     }
 };
+
+LABEL(slow, "AppTest.DrawCallsDoNotGrowWithSegments");
 
 TEST_F(AppTest, DrawCallsDoNotGrowWithSegments) {
     std::vector<int> calls;

@@ -117,7 +117,7 @@ TEST_P(EveryScene, SurvivesRandomEventsAndCommandsAndReplaysThem) {
             app.workspace().cameras.clear();
             app.start_recording();
             Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
-            const int events = tendril::test::sanitizer_factor > 1 ? 30 : 60;
+            const int events = tendril::test::sanitizer_factor > 1 ? 12 : 60;
             for (int i = 0; i < events && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");

@@ -336,6 +336,7 @@ void expect_stands(const test::Measured& all) {
 }
 
 LABEL(slow, "CharacterFeet.ClipsThatOthersMadeStandToo");
+LABEL(slow, "LooseFeet.WorkInTheRobotFile");
 
 TEST(CharacterFeet, TheFiguresSolesAreWhereItsBuilderPutsThem) {
     const Character figure = stick_figure();

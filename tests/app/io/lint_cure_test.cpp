@@ -247,6 +247,8 @@ class LintFixes : public LintFigure {
 };
 
 LABEL(slow, "LintFixes.*");
+LABEL(slow, "LintCure.AfterRandomFaultsNoFootIsLeftWrong");
+LABEL(slow, "LintCure.ASkatingFootIsMadeToStand");
 
 TEST_F(LintFixes, OfSkatingFeetOnNearlyStraightLegsCauseNoOtherFault) {
     Random random(5);

@@ -347,6 +347,7 @@ bool has_files() {
 }
 
 LABEL(slow, "LintFiles.*");
+LABEL(slow, "LintTest.FindsAndFixesAPoppingKnee");
 
 TEST(LintFiles, ThirdPartyFilesHaveTheKnownFaults) {
     if (!has_files()) GTEST_SKIP() << "they are not there";

@@ -9,6 +9,7 @@
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/random_numbers.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -162,6 +163,8 @@ class Ghosts : public LabTest {
                                          .pose = nullptr});
     }
 };
+
+LABEL(slow, "Ghosts.AreHalfASecondApartHoweverFewMomentsAreKept");
 
 TEST_F(Ghosts, AreHalfASecondApartHoweverFewMomentsAreKept) {
     for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {

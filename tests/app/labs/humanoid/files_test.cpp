@@ -9,6 +9,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -329,6 +330,8 @@ TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {
     run("undo");
     EXPECT_TRUE(part() == before);
 }
+
+LABEL(slow, "HumanoidFiles.AfterAllFixesTheRestIsExplained");
 
 TEST_F(HumanoidFiles, AfterAllFixesTheRestIsExplained) {
     const auto robot = tendril::test::characters_folder() / "robot.glb";

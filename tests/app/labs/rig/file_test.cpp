@@ -4,6 +4,7 @@
 #include "app/labs/rig/code.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "rig_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -225,6 +226,8 @@ double off(const Json& got, const Json& wanted) {
 }
 
 class RigLabReference : public RigTest, public testing::WithParamInterface<const char*> {};
+
+LABEL(slow, "Commands/RigLabReference.AgreesWithAnIndependentImplementation/hierarchy");
 
 TEST_P(RigLabReference, AgreesWithAnIndependentImplementation) {
     const Json cases = cases_of(GetParam());

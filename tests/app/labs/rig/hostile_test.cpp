@@ -8,6 +8,7 @@
 #include "app/labs/rig/take.hpp"
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -108,6 +109,8 @@ TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
                                                 rig::Space::Local, {.translation = {1, 0, 0}}));
     expect_refused("rig.solve", {{"direction", "backward"}}, {"so large", "too long"});
 }
+
+LABEL(slow, "RigHostile.ABackwardSolveStopsAtItsBudgetAndReportsIt");
 
 /// A chain of controls that each move all the bones after it.
 TEST_F(RigHostile, ABackwardSolveStopsAtItsBudgetAndReportsIt) {
