@@ -1,7 +1,7 @@
 // The open lab's card of things to try: which of its steps are done.
 #include "app/app.hpp"
-#include "app/document/card_progress.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/workspace.hpp"
 #include "app/shell/card_watch.hpp"
 
 namespace tendril::app {

@@ -6,7 +6,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
-#include "app/shell/panes_view.hpp"
 #include "app/video_take.hpp"
 
 namespace tendril::app {

@@ -6,7 +6,7 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/document/pace.hpp"
+#include "app/document/runtime.hpp"
 #include "app/system/environment.hpp"
 
 namespace tendril::app {

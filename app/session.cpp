@@ -13,7 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
-#include "app/labs/files.hpp"
+#include "app/labs/labs.hpp"
 #include "app/live_loop.hpp"
 #include "app/opening.hpp"
 #include "app/system/environment.hpp"

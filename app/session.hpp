@@ -1,10 +1,11 @@
-// One run of the program, from its options to its exit code.
+// One run of the program, from its arguments to its exit code.
 #pragma once
 
 #include <atomic>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/window/window.hpp"
 
@@ -36,5 +37,11 @@ void end_session_on_signals();
 void end_at_once_on_signals();
 /// True after a signal that ends the session, for code other than a session.
 const std::atomic<bool>& session_ending();
+
+// Runs the program by its arguments: a session with a window or off screen, a list, or a subcommand.
+
+/// `words` begin with the program's name. Returns the program's exit code: run_session's or the subcommand's,
+/// or 2 for an invalid command line. Errors are printed to stderr, in one line.
+int run_command_line(const std::vector<std::string>& words);
 
 }  // namespace tendril::app

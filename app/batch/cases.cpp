@@ -5,7 +5,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/document/list_reader.hpp"
+#include "app/document/json_scan.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/kit/library_json.hpp"

@@ -1,4 +1,4 @@
-#include "app/batch/linkage_cases.hpp"
+#include "app/batch/cases.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "app/io/points.hpp"
+#include "app/io/samples.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/shell/axis_gizmo.hpp"
+#include "app/shell/gizmo_view.hpp"
 
 #include <imgui.h>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/shell/theme.hpp"
+#include "app/shell/ui.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/tooltip.hpp"

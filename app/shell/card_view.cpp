@@ -1,4 +1,3 @@
-#include "app/shell/card_view.hpp"
 
 #include <imgui.h>
 
@@ -10,8 +9,7 @@
 #include "app/view/camera.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/section_light.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 

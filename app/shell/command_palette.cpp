@@ -8,9 +8,9 @@
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/shell/shell.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

@@ -8,11 +8,10 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "app/labs/files.hpp"
+#include "app/labs/labs.hpp"
 #include "app/shell/shell.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/view/picking.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/shell/palette_rows.hpp"
+#include "app/shell/command_palette.hpp"
 
 #include <imgui.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

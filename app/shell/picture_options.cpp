@@ -7,7 +7,6 @@
 
 #include "app/labs/kit/film.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 

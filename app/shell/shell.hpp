@@ -1,24 +1,39 @@
-// The window around the labs: bars, panels and overlays. It reads the workspace and emits commands.
+// The window around the labs: bars, panels and overlays, and their places. It reads the workspace and emits
+// commands.
 #pragma once
 
 #include <imgui.h>
-
+#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "app/document/settings.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
-#include "app/shell/layout.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "app/shell/unfold.hpp"
+#include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 
 namespace tendril::app {
+
+/// Divides the window into bars, panels and the 3D view.
+struct Layout {
+    Rect top, left, right, timeline, status, canvas, view;
+    float scale = 1.0f;
+    bool left_open = true, right_open = true;
+    bool one_panel = false;  ///< only one side panel fits
+};
+
+/// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
+/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`: the
+/// fraction of the middle, from the left, that the lab's own plots take from the 3D view, 0 to 1.
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 /// The contents of a frame of the shell.
 struct ShellFrame {

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "app/view/gizmo_drag.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,4 @@
-#include "app/view/gizmo_drag.hpp"
+#include "app/view/gizmo.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "app/view/edges.hpp"
+#include "app/view/surfaces.hpp"
 
 namespace tendril::app {
 

@@ -1,4 +1,4 @@
-#include "app/io/character/gltf_accessor.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -10,7 +10,6 @@
 #include "app/document/outside_file.hpp"
 #include "app/document/text.hpp"
 #include "app/io/character/base64.hpp"
-#include "app/io/character/gltf_check.hpp"
 
 namespace tendril::app {
 namespace {

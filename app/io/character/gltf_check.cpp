@@ -1,4 +1,4 @@
-#include "app/io/character/gltf_check.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 
 #include <cstddef>
 #include <nlohmann/json.hpp>

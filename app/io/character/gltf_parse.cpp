@@ -1,4 +1,3 @@
-#include "app/io/character/gltf_parse.hpp"
 
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -6,7 +5,6 @@
 
 #include "app/document/text.hpp"
 #include "app/io/character/gltf_bytes.hpp"
-#include "app/io/character/gltf_check.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "app/io/character/twist_spread.hpp"
+#include "app/io/character/skin.hpp"
 
 #include <algorithm>
 #include <cmath>

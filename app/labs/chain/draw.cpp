@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
@@ -18,9 +18,7 @@
 #include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/row_search.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

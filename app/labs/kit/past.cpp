@@ -10,15 +10,12 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -9,7 +9,6 @@
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
-#include "app/labs/linkage/past.hpp"
 
 namespace tendril::app {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/linkage/draw.hpp"

@@ -4,12 +4,11 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/measures.hpp"
-#include "app/labs/linkage/past.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/labs/linkage/mechanism.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
 
 #include <algorithm>
 

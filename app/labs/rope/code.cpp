@@ -1,4 +1,4 @@
-#include "app/labs/rope/code.hpp"
+#include "app/labs/rope/body_commands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/code_text.hpp"
-#include "app/labs/kit/world_file.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 namespace tendril::app {

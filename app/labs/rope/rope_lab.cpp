@@ -6,17 +6,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/document/pace.hpp"
-#include "app/document/units.hpp"
+#include "app/document/runtime.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rope/body_commands.hpp"
-#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/skin.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "app/labs/kit/arguments.hpp"

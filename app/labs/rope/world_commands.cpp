@@ -4,14 +4,10 @@
 #include <utility>
 
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/world_file.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/body_commands.hpp"
-#include "app/labs/rope/code.hpp"
-#include "app/labs/rope/race.hpp"
-#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/labs/signal/code.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 
 #include "app/labs/kit/code_text.hpp"
 

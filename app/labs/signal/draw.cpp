@@ -1,4 +1,3 @@
-#include "app/labs/signal/draw.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -6,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/panel.hpp"
 #include "app/labs/signal/signal_lab.hpp"

@@ -6,8 +6,7 @@
 #include "app/document/refused.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/code.hpp"
-#include "app/labs/signal/signal_commands.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {

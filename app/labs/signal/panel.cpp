@@ -5,21 +5,15 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/draw.hpp"
-#include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
-#include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
-#include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -5,15 +5,10 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/code.hpp"
-#include "app/labs/signal/draw.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/panel.hpp"
-#include "app/labs/signal/presets.hpp"
-#include "app/labs/signal/signal_commands.hpp"
 
 namespace tendril::app {
 namespace {

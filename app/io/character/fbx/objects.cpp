@@ -1,4 +1,4 @@
-#include "app/io/character/fbx/objects.hpp"
+#include "app/io/character/fbx/record.hpp"
 
 #include <algorithm>
 

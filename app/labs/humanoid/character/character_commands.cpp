@@ -7,9 +7,9 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/text.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
-#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/draw.hpp"
