@@ -30,6 +30,11 @@ void trim(std::map<std::string, Workspace::Past>& pasts) {
     }
 }
 
+/// The card's key in Settings::choices.
+std::string card_key(const std::string& lab) {
+    return "card_" + lab;
+}
+
 }  // namespace
 
 void Workspace::open_lab(const std::string& name) {
@@ -177,10 +182,6 @@ void Workspace::toast(std::string text, ToastKind kind) {
     std::erase_if(toasts, [&](const Toast& toast) { return toast.text == text; });
     toasts.push_back({std::move(text), kind, ticks});
     if (toasts.size() > most) toasts.erase(toasts.begin());
-}
-
-std::string card_key(const std::string& lab) {
-    return "card_" + lab;
 }
 
 bool card_shown(const Settings& settings, const std::string& lab) {

@@ -93,8 +93,6 @@ struct CardProgress {
     std::uint64_t ticks_to_wait = 0;     ///< until the next check
 };
 
-/// The card's key in Settings::choices.
-std::string card_key(const std::string& lab);
 bool card_shown(const Settings& settings, const std::string& lab);
 void show_card(Settings& settings, const std::string& lab, bool shown);
 /// Whether the user ever showed or hid the card.

@@ -56,6 +56,20 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     }
 }
 
+/// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
+/// contents do not fit. Always call ImGui::End() after it.
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding,
+                  bool scrolls = false) {
+    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
+    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::Begin(name, nullptr, scrolls ? region_flags & ~ImGuiWindowFlags_NoScrollbar : region_flags);
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
+}
+
 /// The strip that a folded panel leaves, to unfold it.
 void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& emit) {
     begin_region(left ? "left strip" : "right strip", rect, frame.colours().panel, {0.0f, 0.0f});
@@ -267,17 +281,6 @@ std::string undo_title(const CommandTable& commands, const History& history) {
 
 std::string redo_title(const CommandTable& commands, const History& history) {
     return with_change(commands, "Redo", history.redo_label());
-}
-
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls) {
-    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
-    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::Begin(name, nullptr, scrolls ? region_flags & ~ImGuiWindowFlags_NoScrollbar : region_flags);
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
 }
 
 /// Content that became shorter cannot keep its scroll position. When it is long again, as after undo, the

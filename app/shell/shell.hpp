@@ -100,10 +100,6 @@ void show_toasts(const ShellFrame& frame);
 /// Returns its rectangle, empty if not shown.
 Rect show_first_hint(const ShellFrame& frame);
 
-/// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
-/// contents do not fit. Always call ImGui::End() after it.
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
-
 /// Begins a window in the middle of the screen, of the wanted size in pixels, clamped to fit the
 /// screen. Returns false once it is closed by Escape or the cross.
 bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted);

@@ -102,6 +102,15 @@ std::string first_gesture(MousePreset preset, MouseAction action) {
     return {};
 }
 
+/// "Right drag, Alt+left drag"; empty if there is none.
+std::string gestures_of(MousePreset preset, MouseAction action) {
+    std::string text;
+    for (const Binding& binding : bindings)
+        if (binding.preset == preset && binding.action == action)
+            text += (text.empty() ? "" : ", ") + gesture(binding, " ");
+    return text;
+}
+
 }  // namespace
 
 Shortcuts::Shortcuts(const Labs& labs, const CommandTable& commands) : rows_(common_rows()) {
@@ -199,14 +208,6 @@ std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, 
         if (binding.preset == preset && binding.button == button && binding.held == held)
             return binding.action;
     return std::nullopt;
-}
-
-std::string gestures_of(MousePreset preset, MouseAction action) {
-    std::string text;
-    for (const Binding& binding : bindings)
-        if (binding.preset == preset && binding.action == action)
-            text += (text.empty() ? "" : ", ") + gesture(binding, " ");
-    return text;
 }
 
 std::string orbit_hint(MousePreset preset) {

@@ -32,8 +32,6 @@ struct HeldKeys {
 /// orbits, in every preset.
 std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held);
 
-/// "Right drag, Alt+left drag"; empty if there is none.
-std::string gestures_of(MousePreset preset, MouseAction action);
 /// "Right-drag turns the view, middle-drag shifts it, the wheel zooms."
 std::string view_hint(MousePreset preset, Scroll scroll = Scroll::Zoom);
 /// "Right-drag turns the view."

@@ -38,9 +38,6 @@ class SkinPass {
 
 // The mesh of a DrawList, in one draw call.
 
-/// For programs whose vertex shader includes surface.glsl and whose fragment shader includes light.glsl.
-void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame);
-
 class MeshPass {
   public:
     /// Draws into the bound framebuffer; the GL viewport must be all of it. Returns the number of draw calls:

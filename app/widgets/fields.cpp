@@ -50,10 +50,6 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
     return true;
 }
 
-}  // namespace
-
-namespace {
-
 void line_below() {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},

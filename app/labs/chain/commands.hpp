@@ -79,9 +79,6 @@ std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& 
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
 /// A chain with one joint at each point.
 Chain chain_through(const std::vector<glm::vec3>& points);
-/// Replaces the chain and puts the target on its tail or, in a trailing mode, on the led joint. Removes
-/// limits and the pole target.
-void take_chain(ChainPart& part, Chain chain);
 /// Solves again for the current target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime);
 
@@ -102,9 +99,6 @@ void add_save_trace_command(CommandTable& table);
 
 /// Whether a file's text begins like a trace, for Lab::files().
 bool begins_like_trace(std::string_view text);
-
-/// Whether pasted text is a trace: two frames or more, or a pose with a target.
-bool holds_trace(const std::string& text);
 
 void add_chain_commands(CommandTable& table);
 

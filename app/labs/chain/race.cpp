@@ -110,6 +110,33 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
     return racer;
 }
 
+/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, root_to_target_m,
+/// microseconds; the last row of a solver adds status, ran (see ran_text) and restored_m: of the best pose if
+/// that was restored.
+std::string race_csv(const Race& race) {
+    const auto metres = [](float value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+        return std::string(text);
+    };
+    std::string csv =
+        "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m\n";
+    for (const Racer& racer : race.racers) {
+        const int last = racer.iterations();
+        for (int i = 0; i <= last; ++i) {
+            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
+                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' + metres(race.root_to_target) +
+                   ',' + fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
+            csv += i < last ? ",,"
+                            : std::string(ik::name(racer.report.status)) + ",\"" +
+                                  ran_text(racer.method, racer.report) + "\"," +
+                                  (racer.restored ? metres(racer.report.residual) : "");
+            csv += '\n';
+        }
+    }
+    return csv;
+}
+
 std::string open_race_csv(const Workspace& workspace) {
     const ShownChain shown = shown_chain(workspace);
     check_race(shown.part);
@@ -216,30 +243,6 @@ std::string end_text(const Racer& racer) {
         text += "; best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
     if (more != ran.npos && racer.iterations() > 0) return text + "; " + ran.substr(more);
     return racer.restored ? text : text + " from the target";
-}
-
-std::string race_csv(const Race& race) {
-    const auto metres = [](float value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
-        return std::string(text);
-    };
-    std::string csv =
-        "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m\n";
-    for (const Racer& racer : race.racers) {
-        const int last = racer.iterations();
-        for (int i = 0; i <= last; ++i) {
-            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
-                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' + metres(race.root_to_target) +
-                   ',' + fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
-            csv += i < last ? ",,"
-                            : std::string(ik::name(racer.report.status)) + ",\"" +
-                                  ran_text(racer.method, racer.report) + "\"," +
-                                  (racer.restored ? metres(racer.report.residual) : "");
-            csv += '\n';
-        }
-    }
-    return csv;
 }
 
 // Commands that write the open race to a file: its numbers, or a video.

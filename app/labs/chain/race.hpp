@@ -91,9 +91,4 @@ std::string error_text(const Racer& racer, const RacerAt& at);
 /// above: "Out of reach, 310 mm; solved in closed form".
 std::string end_text(const Racer& racer);
 
-/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, root_to_target_m,
-/// microseconds; the last row of a solver adds status, ran (see ran_text) and restored_m: of the best pose if
-/// that was restored.
-std::string race_csv(const Race& race);
-
 }  // namespace tendril::app

@@ -134,16 +134,8 @@ void reset(ChainPart& part, const Arguments&) {
     part = first_chain();
 }
 
-void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    const Preset& preset = preset_named(given.text("name"));
-    const int count = given.has("count") ? given.integer("count") : preset.count;
-    const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
-    take_chain(part, make_preset(preset, static_cast<std::size_t>(count), seed));
-    take_scene(part, preset, runtime);
-}
-
-}  // namespace
-
+/// Replaces the chain and puts the target on its tail or, in a trailing mode, on the led joint. Removes
+/// limits and the pole target.
 void take_chain(ChainPart& part, Chain chain) {
     part.chain = std::move(chain);
     part.target = part.chain.position(part.chain.size() - 1);
@@ -161,6 +153,16 @@ void take_chain(ChainPart& part, Chain chain) {
     shape_changed(part);
     put_target_on_led_joint(part);
 }
+
+void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    const Preset& preset = preset_named(given.text("name"));
+    const int count = given.has("count") ? given.integer("count") : preset.count;
+    const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
+    take_chain(part, make_preset(preset, static_cast<std::size_t>(count), seed));
+    take_scene(part, preset, runtime);
+}
+
+}  // namespace
 
 void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear", "Remove every joint",
@@ -248,6 +250,19 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
     return told + ") m";
 }
 
+/// Whether pasted text is a trace: two frames or more, or a pose with a target.
+bool holds_trace(const std::string& text) {
+    try {
+        std::istringstream in(text);
+        const auto raw = open_raw_trace(in);
+        RawFrame first, second;
+        if (!raw->next(first) || first.joints.size() < 2) return false;
+        return first.target || (raw->next(second) && second.joints.size() == first.joints.size());
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 bool begins_like_trace(std::string_view text) {
@@ -256,18 +271,6 @@ bool begins_like_trace(std::string_view text) {
         std::istringstream in{std::string(text)};
         RawFrame frame;
         return open_raw_trace(in)->next(frame) && frame.joints.size() >= 2;
-    } catch (const std::runtime_error&) {
-        return false;
-    }
-}
-
-bool holds_trace(const std::string& text) {
-    try {
-        std::istringstream in(text);
-        const auto raw = open_raw_trace(in);
-        RawFrame first, second;
-        if (!raw->next(first) || first.joints.size() < 2) return false;
-        return first.target || (raw->next(second) && second.joints.size() == first.joints.size());
     } catch (const std::runtime_error&) {
         return false;
     }

@@ -47,12 +47,6 @@ std::optional<PastCurve> Past::curve(const Workspace& workspace) const {
     return chosen > 0 ? std::optional(probes[chosen - 1].curve(workspace)) : std::nullopt;
 }
 
-PastTicks past_ticks(const Workspace& workspace) {
-    const Rewind& past = workspace.rewind;
-    const std::uint64_t now = workspace.moment;
-    return past.empty() ? PastTicks{now, now} : PastTicks{past.oldest(), std::max(past.newest(), now)};
-}
-
 namespace {
 
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
@@ -97,6 +91,12 @@ glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
             break;
     }
     return palette.text_dim;
+}
+
+PastTicks past_ticks(const Workspace& workspace) {
+    const Rewind& past = workspace.rewind;
+    const std::uint64_t now = workspace.moment;
+    return past.empty() ? PastTicks{now, now} : PastTicks{past.oldest(), std::max(past.newest(), now)};
 }
 
 /// Goes to the moment at an index. Call it after the item that the user drags.

@@ -3,6 +3,7 @@
 
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
@@ -36,7 +37,10 @@ std::string expected_text(const std::string& type, const std::string& what, cons
 
 }  // namespace
 
-std::string linkage_code(const LinkagePart& part) {
+/// A complete program: builds the linkage with the library, runs its motors for a second and prints its
+/// points.
+std::string LinkageLab::code(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
     std::string text =
         "// A linkage, exported from Tendril.\n//\n"
         "// CMake: find_package(tendril REQUIRED)\n"

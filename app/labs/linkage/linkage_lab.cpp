@@ -225,10 +225,6 @@ std::vector<CommandCall> LinkageLab::calm() const {
     return {{"linkage.release", {{"joint", "crank"}}}};
 }
 
-std::string LinkageLab::code(const Workspace& workspace) const {
-    return linkage_code(linkage_part(workspace));
-}
-
 Json linkage_state(const LinkagePart& part) {
     const LinkageResult& result = part.result;
     Json points = Json::object(), drivers = Json::object(), active = Json::array(), open = Json::array(),

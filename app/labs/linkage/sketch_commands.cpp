@@ -36,6 +36,13 @@ std::string free_point_name(const LinkageSketch& sketch) {
     }
 }
 
+/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
+bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
+    const auto point = sketch.find_point(name);
+    return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
+           (point && sketch.points[*point].hold == SketchHold::Guided);
+}
+
 /// The first unused name: "motor 2".
 std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
     for (std::size_t i = 1;; ++i) {
@@ -320,12 +327,6 @@ std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point)
 bool chooses_pair(const LinkageSketch& sketch, std::size_t point) {
     constexpr std::size_t most_bars = 4;
     return sketch.points[point].hold == SketchHold::Free && bars_at(sketch, point).size() <= most_bars;
-}
-
-bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
-    const auto point = sketch.find_point(name);
-    return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
-           (point && sketch.points[*point].hold == SketchHold::Guided);
 }
 
 void add_sketch_commands(CommandTable& table) {

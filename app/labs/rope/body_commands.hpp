@@ -1,4 +1,4 @@
-// Shared by the command files of this lab; with its preset scenes and its world as C++.
+// Shared by the command files of this lab; with its preset scenes.
 #pragma once
 
 #include <string>
@@ -39,12 +39,6 @@ void add_collider_commands(CommandTable& table);
 void add_tie_commands(CommandTable& table);
 void add_collision_commands(CommandTable& table);
 void add_look_commands(CommandTable& table);
-
-// The world of the Rope lab as a C++ program that uses the library.
-
-/// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Leaves out a
-/// partial tick that is left over by slow motion or frame-time jitter.
-std::string rope_code(const RopePart& part);
 
 // Preset scenes of the Rope lab: data in presets.json. Metres around the origin, with the ground at y = 0.
 

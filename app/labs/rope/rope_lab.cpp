@@ -146,10 +146,6 @@ std::vector<MouseHelp> RopeLab::mouse_help() const {
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }
 
-std::string RopeLab::code(const Workspace& workspace) const {
-    return rope_code(rope_part(workspace));
-}
-
 /// The opening: a ball swings through the ropes that lie on it.
 std::vector<CommandCall> RopeLab::opening() const {
     return {

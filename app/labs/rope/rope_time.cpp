@@ -182,6 +182,25 @@ std::uint64_t work_of_tied_cloth(const rope::State& state) {
     return static_cast<std::uint64_t>(work);
 }
 
+/// One row for each tick and solver of the last ten seconds.
+std::string rope_race_csv(const Workspace& workspace) {
+    const RopePart& part = rope_part(workspace);
+    if (part.rivals.empty()) throw Refused("no race is open");
+    std::string csv = "solver,seconds,length_error,as_solved,energy,microseconds\n";
+    for (const RopeRacer& racer : rope_racers(part)) {
+        for (std::size_t i = 0; i < racer.samples.size(); ++i) {
+            const RopeSample& at = racer.samples[i];
+            char line[160];
+            std::snprintf(line, sizeof line, "%s,%.4f,%.9g,%.9g,%.9g,%.1f\n",
+                          rope_solvers.name(racer.solver()), static_cast<double>(i) * tick_seconds,
+                          static_cast<double>(at.error), static_cast<double>(at.stretch),
+                          static_cast<double>(at.energy), static_cast<double>(at.cost));
+            csv += line;
+        }
+    }
+    return csv;
+}
+
 }  // namespace
 
 std::uint64_t work_of_substep(const NamedWorld& world) {
@@ -301,24 +320,6 @@ std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, 
                           rope_solver_colour(palette, racer.solver())});
     }
     return titles;
-}
-
-std::string rope_race_csv(const Workspace& workspace) {
-    const RopePart& part = rope_part(workspace);
-    if (part.rivals.empty()) throw Refused("no race is open");
-    std::string csv = "solver,seconds,length_error,as_solved,energy,microseconds\n";
-    for (const RopeRacer& racer : rope_racers(part)) {
-        for (std::size_t i = 0; i < racer.samples.size(); ++i) {
-            const RopeSample& at = racer.samples[i];
-            char line[160];
-            std::snprintf(line, sizeof line, "%s,%.4f,%.9g,%.9g,%.9g,%.1f\n",
-                          rope_solvers.name(racer.solver()), static_cast<double>(i) * tick_seconds,
-                          static_cast<double>(at.error), static_cast<double>(at.stretch),
-                          static_cast<double>(at.energy), static_cast<double>(at.cost));
-            csv += line;
-        }
-    }
-    return csv;
 }
 
 void add_rope_race_commands(CommandTable& table) {

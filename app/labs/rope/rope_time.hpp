@@ -74,9 +74,6 @@ std::string racer_text(const RopeSample& last);
 /// Titles of the panes; none without a race. `cost`: with the time per tick.
 std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, bool cost);
 
-/// One row for each tick and solver of the last ten seconds.
-std::string rope_race_csv(const Workspace& workspace);
-
 void add_rope_race_commands(CommandTable& table);
 
 }  // namespace tendril::app

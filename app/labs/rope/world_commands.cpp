@@ -6,6 +6,7 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/body_commands.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
@@ -84,7 +85,7 @@ void add_world_commands(CommandTable& table) {
     table.add("rope.copy", "Copy the ropes as C++", {},
               "Copies ropes and colliders to the clipboard as a C++ program that uses the library",
               Effect::Look, [](Workspace& workspace, const Arguments&) {
-                  workspace.ui.copied = rope_code(rope_part(workspace));
+                  workspace.ui.copied = RopeLab().code(workspace);
                   workspace.toast("The ropes are on the clipboard as C++");
               });
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),

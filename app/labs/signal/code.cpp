@@ -13,7 +13,8 @@ std::string initialiser(const signal::Filter& filter) {
 
 }  // namespace
 
-std::string signal_code(const SignalPart& part) {
+/// A complete program: the enabled filters, stepped frame by frame through one second after a jump.
+std::string SignalLab::code(const Workspace& workspace) const {
     std::string text =
         "// Filters, exported from Tendril.\n"
         "//\n"
@@ -26,7 +27,7 @@ std::string signal_code(const SignalPart& part) {
         "int main() {\n"
         "    // Applied in this order.\n"
         "    const std::vector<signal::Filter> filters{";
-    const std::vector<signal::Filter> filters = enabled_filters(part);
+    const std::vector<signal::Filter> filters = enabled_filters(signal_part(workspace));
     for (const signal::Filter& filter : filters) text += "\n        " + initialiser(filter) + ",";
     text += filters.empty() ? "};\n" : "\n    };\n";
     text +=

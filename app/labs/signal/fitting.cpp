@@ -195,9 +195,8 @@ std::string csv_of(const SignalPart& part) {
 }
 
 void copy(Workspace& workspace, const Arguments& given) {
-    const SignalPart& part = signal_part(workspace);
     const bool cpp = given.text("as") == "cpp";
-    workspace.ui.copied = cpp ? signal_code(part) : csv_of(part);
+    workspace.ui.copied = cpp ? SignalLab().code(workspace) : csv_of(signal_part(workspace));
     workspace.toast(cpp ? "The filters are on the clipboard as C++"
                         : "The last ten seconds are on the clipboard as CSV");
 }

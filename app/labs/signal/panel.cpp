@@ -323,8 +323,7 @@ void measure_rows(const SignalPart& part, const ChainAnalysis& analysis, const P
     }
 }
 
-}  // namespace
-
+/// The ranking of fitted filters.
 void fit_rows(const SignalPart& part, Emit& emit) {
     if (part.plot != SignalPlot::Fit) return;
     const PanelSection ids("Fit");
@@ -379,6 +378,8 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     }
     note("Error left, % of the range; click to use.");
 }
+
+}  // namespace
 
 void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);

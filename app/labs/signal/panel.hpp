@@ -26,8 +26,6 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
 /// The parameters of the selected filter.
 void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
-/// The ranking of fitted filters.
-void fit_rows(const SignalPart& part, Emit& emit);
 
 /// The number of best fits that the plot shows, and their colours.
 inline constexpr std::size_t shown_fits = 3;

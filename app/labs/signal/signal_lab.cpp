@@ -130,10 +130,6 @@ std::vector<MouseHelp> SignalLab::mouse_help() const {
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
 }
 
-std::string SignalLab::code(const Workspace& workspace) const {
-    return signal_code(signal_part(workspace));
-}
-
 Json SignalLab::state(const Workspace& workspace) const {
     const SignalPart& part = signal_part(workspace);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);

@@ -62,11 +62,6 @@ void add_filter_commands(CommandTable& table);
 void add_input_commands(CommandTable& table);
 void add_fit_commands(CommandTable& table);
 
-// Export: the chain of filters as a C++ program that uses the library.
-
-/// A complete program: the enabled filters, stepped frame by frame through one second after a jump.
-std::string signal_code(const SignalPart& part);
-
 /// Presets: chains of filters, each with an input and a plot that show its point. Data in presets.json.
 struct SignalPreset {
     std::string name, title;

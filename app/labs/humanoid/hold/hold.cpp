@@ -72,14 +72,14 @@ std::string hold_reason_text(const humanoid::HoldReport& report) {
     return text.empty() ? text : capitalised(text) + '.';
 }
 
+bool is_closed(const humanoid::GripReport& grip) {
+    return grip.gap <= told_way && grip.off <= told_turn;
+}
+
 }  // namespace
 
 bool gives_way(const humanoid::HoldReport& report) {
     return report.moved > told_way || report.turned > told_turn;
-}
-
-bool is_closed(const humanoid::GripReport& grip) {
-    return grip.gap <= told_way && grip.off <= told_turn;
 }
 
 Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report) {

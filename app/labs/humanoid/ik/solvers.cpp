@@ -48,6 +48,17 @@ class FeetWalk {
     Playback playback_;
 };
 
+/// Why the map cannot be solved; empty if it can. "LeftHand and RightHand are missing"
+std::string why_unusable(const humanoid::BoneMap& map) {
+    std::string names;
+    for (std::size_t i = 0; i < map.missing.size(); ++i) {
+        if (i > 0) names += i + 1 == map.missing.size() ? " and " : ", ";
+        names += humanoid::name(map.missing[i]);
+    }
+    if (!names.empty()) return names + (map.missing.size() == 1 ? " is missing" : " are missing");
+    return map.upright ? "" : "from hips to head it runs more sideways than up";
+}
+
 }  // namespace
 
 Solvers::Solvers() = default;
@@ -259,16 +270,6 @@ std::vector<BodyChain> body_chains(const humanoid::BoneMap& map) {
         chain.end = chain.bones.back();
     }
     return all;
-}
-
-std::string why_unusable(const humanoid::BoneMap& map) {
-    std::string names;
-    for (std::size_t i = 0; i < map.missing.size(); ++i) {
-        if (i > 0) names += i + 1 == map.missing.size() ? " and " : ", ";
-        names += humanoid::name(map.missing[i]);
-    }
-    if (!names.empty()) return names + (map.missing.size() == 1 ? " is missing" : " are missing");
-    return map.upright ? "" : "from hips to head it runs more sideways than up";
 }
 
 FeetHistory::Deepest FeetHistory::deepest_of(const humanoid::FeetReport& report) {

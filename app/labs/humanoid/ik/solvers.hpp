@@ -170,7 +170,4 @@ struct BodyChain {
 /// Empty if the map is not usable.
 std::vector<BodyChain> body_chains(const humanoid::BoneMap& map);
 
-/// Why the map cannot be solved; empty if it can. "LeftHand and RightHand are missing"
-std::string why_unusable(const humanoid::BoneMap& map);
-
 }  // namespace tendril::app

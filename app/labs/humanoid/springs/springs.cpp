@@ -49,6 +49,15 @@ std::span<const FieldText> field_texts<humanoid::SpringOptions>() {
 
 namespace {
 
+/// The index of the part's spring that turns the node; empty if none does.
+std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node) {
+    for (std::size_t i = 0; i < part.springs.size(); ++i)
+        if (const auto root = part.skeleton().find(part.springs[i].node);
+            root && part.skeleton().is_below(node, *root))
+            return i;
+    return std::nullopt;
+}
+
 /// Which other spring would turn the same nodes; empty if none would.
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
@@ -68,6 +77,22 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     explain("The largest angle between its bones and the clip now.");
     settings_row(panel, each.node, "humanoid.spring", "node", "Only the clip moves it again");
     ImGui::PopID();
+}
+
+/// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
+/// no parent. Empty if there can be one, provided that the node has some length.
+std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
+    const std::string& name = part.skeleton()[node].name;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const std::int32_t mapped = part.map->bones[i].node;
+        if (mapped >= 0 && part.skeleton().is_below(static_cast<std::size_t>(mapped), node))
+            return (static_cast<std::size_t>(mapped) == node ? name + " is the "
+                                                             : "below " + name + " is the ") +
+                   std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
+                   " of the body, which the clip and IK move";
+    }
+    if (part.skeleton()[node].parent < 0) return name + " has no parent";
+    return overlap(part, node);
 }
 
 /// A chooser of the nodes that can have a spring.
@@ -110,30 +135,7 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
     if (colliding(panel.part, spring) != nullptr) rows.row("hit_radius");
 }
 
-}  // namespace
-
-std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node) {
-    for (std::size_t i = 0; i < part.springs.size(); ++i)
-        if (const auto root = part.skeleton().find(part.springs[i].node);
-            root && part.skeleton().is_below(node, *root))
-            return i;
-    return std::nullopt;
-}
-
-std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
-    const std::string& name = part.skeleton()[node].name;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
-        const std::int32_t mapped = part.map->bones[i].node;
-        if (mapped >= 0 && part.skeleton().is_below(static_cast<std::size_t>(mapped), node))
-            return (static_cast<std::size_t>(mapped) == node ? name + " is the "
-                                                             : "below " + name + " is the ") +
-                   std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
-                   " of the body, which the clip and IK move";
-    }
-    if (part.skeleton()[node].parent < 0) return name + " has no parent";
-    return overlap(part, node);
-}
-
+/// The setting with which a spring on the node begins.
 SpringSetting usual_spring(const HumanoidPart& part, std::size_t node) {
     SpringSetting setting{.node = part.skeleton()[node].name};
     for (const NamedSpring& each : part.loaded->character.springs)
@@ -141,6 +143,8 @@ SpringSetting usual_spring(const HumanoidPart& part, std::size_t node) {
             setting.options.hit_radius = std::min(each.hit_radius, max_hit_radius());
     return setting;
 }
+
+}  // namespace
 
 void take_springs(HumanoidPart& part) {
     for (const NamedSpring& each : part.loaded->character.springs) {
