@@ -1,7 +1,6 @@
 #include "app/live_loop.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "app/document/atomic_file.hpp"

@@ -15,49 +15,46 @@ namespace {
 
 constexpr std::size_t max_bones = 500'000;
 
-std::string element(const std::string& where, std::size_t index) {
-    return where + "." + std::to_string(index);
-}
-
 /// Requires a list of `count` values, or of 1 to max_bones if `count` is 0.
-const Json& check_list(const Json& json, std::size_t count, const char* what, const std::string& where) {
+void check_list(const JsonPlace& list, std::size_t count, const char* what) {
+    const Json& json = list.json();
     const bool fits = count == 0 ? !json.empty() && json.size() <= max_bones : json.size() == count;
-    if (json.is_array() && fits) return json;
+    if (json.is_array() && fits) return;
     const std::string number = count == 0 ? "1 to " + std::to_string(max_bones) : std::to_string(count);
     const std::string found =
         json.is_array() ? "a list of " + std::to_string(json.size()) : json_summary(json);
-    throw std::runtime_error(where + ": expected a list of " + number + " " + what + ", found " + found);
+    list.fail("expected a list of " + number + " " + what + ", found " + found);
 }
 
-std::vector<float> read_lengths(const Json& json, const std::string& where) {
+std::vector<float> read_lengths(const JsonPlace& list) {
+    check_list(list, 0, "lengths");
     std::vector<float> lengths;
-    check_list(json, 0, "lengths", where);
-    lengths.reserve(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const std::string here = element(where, i);
-        lengths.push_back(json_number(json[i], here));
-        if (lengths.back() < 0.0f)
-            throw std::runtime_error(here + ": expected at least 0, found " + json_summary(json[i]));
+    lengths.reserve(list.json().size());
+    for (std::size_t i = 0; i < list.json().size(); ++i) {
+        const JsonPlace each = list.element(i);
+        lengths.push_back(each.number());
+        if (lengths.back() < 0.0f) each.fail("expected at least 0, found " + json_summary(each.json()));
     }
     return lengths;
 }
 
-std::vector<glm::vec3> read_joints(const Json& json, std::size_t bones, const std::string& where) {
-    std::vector<glm::vec3> joints;
-    check_list(json, bones + 1, "points, one more than lengths", where);
-    joints.reserve(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i) joints.push_back(json_point(json[i], element(where, i)));
-    return joints;
+std::vector<glm::vec3> read_points(const JsonPlace& list) {
+    std::vector<glm::vec3> points;
+    points.reserve(list.json().size());
+    for (std::size_t i = 0; i < list.json().size(); ++i) points.push_back(list.element(i).point());
+    return points;
 }
 
-std::vector<glm::vec3> read_control_points(const Json& json, const std::string& where) {
-    constexpr std::size_t most = 4096;
-    if (!json.is_array() || json.size() < 2 || json.size() > most)
-        throw std::runtime_error(where + ": expected a list of 2 to 4096 control points, found " +
-                                 json_summary(json));
-    std::vector<glm::vec3> points;
-    for (std::size_t i = 0; i < json.size(); ++i) points.push_back(json_point(json[i], element(where, i)));
-    return points;
+std::vector<glm::vec3> read_joints(const JsonPlace& list, std::size_t bones) {
+    check_list(list, bones + 1, "points, one more than lengths");
+    return read_points(list);
+}
+
+std::vector<glm::vec3> read_control_points(const JsonPlace& list) {
+    const Json& json = list.json();
+    if (!json.is_array() || json.size() < 2 || json.size() > 4096)
+        list.fail("expected a list of 2 to 4096 control points, found " + json_summary(json));
+    return read_points(list);
 }
 
 std::vector<glm::vec3> along_x(const std::vector<float>& lengths) {
@@ -81,33 +78,29 @@ std::vector<glm::vec3> directions(const std::vector<glm::vec3>& joints) {
     return found;
 }
 
-std::vector<ik::Limit> read_limits(const Json& json, std::size_t bones, const std::string& where) {
-    std::vector<ik::Limit> limits;
-    if (json.is_array() && json.empty()) return limits;
-    check_list(json, bones, "limits, one for each length", where);
-    limits.reserve(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i)
-        limits.push_back(json[i].is_null() ? ik::Limit{} : limit_from_json(json[i], element(where, i)));
-    return limits;
-}
-
-std::vector<ik::AngleLimit> read_angle_limits(const Json& json, std::size_t bones, const std::string& where) {
-    std::vector<ik::AngleLimit> limits;
-    if (json.is_array() && json.empty()) return limits;
-    check_list(json, bones, "limits, one for each length", where);
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const JsonPlace place(json[i], element(where, i));
-        limits.emplace_back();
-        if (json[i].is_null()) continue;
-        load_fields(place, limits.back());
-        if (const char* const why = ik::fault(limits.back())) place.fail(why);
+/// One for each bone, or none at all; null: no limit.
+template <class Limit, class Read>
+std::vector<Limit> read_limits(const JsonPlace& list, std::size_t bones, const Read& read) {
+    std::vector<Limit> limits;
+    if (list.json().is_array() && list.json().empty()) return limits;
+    check_list(list, bones, "limits, one for each length");
+    limits.reserve(bones);
+    for (std::size_t i = 0; i < bones; ++i) {
+        const JsonPlace each = list.element(i);
+        limits.push_back(each.json().is_null() ? Limit{} : read(each));
     }
     return limits;
 }
 
+ik::AngleLimit read_angle_limit(const JsonPlace& place) {
+    ik::AngleLimit limit;
+    load_fields(place, limit);
+    if (const char* const why = ik::fault(limit)) place.fail(why);
+    return limit;
+}
+
 /// Reads the plane, and the members that only a plane case may have.
-void read_plane(const Json& json, const std::string& where, Case& read) {
-    const JsonPlace place(json, where);
+void read_plane(const JsonPlace& place, Case& read) {
     const auto normal = place.optional("plane");
     for (const char* const key : {"bend", "angle_limits"})
         if (!normal && place.has(key)) place[key].fail("is for a case with a plane");
@@ -117,42 +110,35 @@ void read_plane(const Json& json, const std::string& where, Case& read) {
     if (!(glm::length(*read.normal) > 1e-6f)) normal->fail("must be longer than 1e-6");
     if (const auto bend = place.optional("bend")) read.bend = bend->choice(bend_sides);
     if (const auto limits = place.optional("angle_limits"))
-        read.angle_limits = read_angle_limits(limits->json(), read.lengths.size(), limits->where());
+        read.angle_limits = read_limits<ik::AngleLimit>(*limits, read.lengths.size(), read_angle_limit);
 }
 
 }  // namespace
 
 Case case_from_json(const Json& json, const std::string& where, std::size_t index) {
+    const JsonPlace place(json, where);
     Case read;
-    if (json.is_object() && json.contains("linkage")) {
-        const JsonPlace place(json, where);
+    if (place.has("linkage")) {
         const auto name = place.optional("name");
         read.name = name ? name->text() : std::to_string(index);
         read.linkage = linkage_case_from_json(place);
         return read;
     }
-    read.lengths = read_lengths(json_member(json, "lengths", where), where + ".lengths");
+    read.lengths = read_lengths(place["lengths"]);
     const std::size_t bones = read.lengths.size();
-    if (const auto curve = json.find("curve"); curve != json.end())
-        read.curve = read_control_points(*curve, where + ".curve");
+    if (place.has("curve"))
+        read.curve = read_control_points(place["curve"]);
     else
-        read.target = json_point(json_member(json, "target", where), where + ".target");
-    const auto given = [&](const char* key, const auto& take) {
-        const auto found = json.find(key);
-        if (found != json.end()) take(*found, where + "." + key);
-        return found != json.end();
-    };
-    if (!given("name", [&](const Json& j, const std::string& at) { read.name = json_text(j, at); }))
-        read.name = std::to_string(index);
-    if (!given("start",
-               [&](const Json& j, const std::string& at) { read.start = read_joints(j, bones, at); }))
-        read.start = along_x(read.lengths);
-    given("rest", [&](const Json& j, const std::string& at) {
-        read.rest_directions = directions(read_joints(j, bones, at));
-    });
-    given("pole", [&](const Json& j, const std::string& at) { read.pole = json_point(j, at); });
-    given("limits", [&](const Json& j, const std::string& at) { read.limits = read_limits(j, bones, at); });
-    read_plane(json, where, read);
+        read.target = place["target"].point();
+    read.name = place.has("name") ? place["name"].text() : std::to_string(index);
+    read.start = place.has("start") ? read_joints(place["start"], bones) : along_x(read.lengths);
+    if (place.has("rest")) read.rest_directions = directions(read_joints(place["rest"], bones));
+    if (place.has("pole")) read.pole = place["pole"].point();
+    if (place.has("limits"))
+        read.limits = read_limits<ik::Limit>(place["limits"], bones, [](const JsonPlace& each) {
+            return limit_from_json(each.json(), each.where());
+        });
+    read_plane(place, read);
     return read;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "app/shell/shell.hpp"
 #include "app/shell/ui.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/fonts.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
 #include "app/shell/card_watch.hpp"
@@ -15,6 +19,7 @@
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -273,6 +278,26 @@ std::string with_change(const CommandTable& commands, const char* title, const s
     return std::string(title) + ": " + lower_case(command->title.substr(0, 1)) + command->title.substr(1);
 }
 
+/// Unfolds the section of that title, if there is one, and the sections that hide a row of the command.
+void unfold(const ShellFrame& frame, const std::string& title, const std::string& command,
+            const Json& arguments, Emit& emit) {
+    RowSearch search{.title = title, .command = command};
+    for (const auto& [name, value] : arguments.items()) search.arguments.push_back(name);
+    {
+        const SearchWindow window(search);
+        Emit unused;
+        frame.lab.panel(frame.workspace, unused);
+        search.inside.clear();
+        frame.lab.inspector(frame.workspace, unused);
+    }
+    std::vector<std::string> unfolded;
+    for (const std::string& section : search.found) {
+        if (std::ranges::find(unfolded, section) != unfolded.end()) continue;
+        unfolded.push_back(section);
+        emit("view.fold", {{"section", section}, {"folded", false}});
+    }
+}
+
 }  // namespace
 
 std::string undo_title(const CommandTable& commands, const History& history) {
@@ -430,6 +455,17 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     layout.canvas = {{left, top}, {split, middle}};
     layout.view = {{split, top}, {window.x - right, middle}};
     return layout;
+}
+
+void Unfolding::for_step(const ShellFrame& frame, const CardStep* step, Emit& emit) {
+    if (std::exchange(step_, step) == step || step == nullptr || step->place == CardStep::Place::Handle)
+        return;
+    for (const CardLine& line : step->by)
+        unfold(frame, step->place_name, line.command, *line.arguments, emit);
+}
+
+void Unfolding::for_command(const ShellFrame& frame, const Emitted& command, Emit& emit) {
+    unfold(frame, "", command.name, *command.arguments, emit);
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// The window around the labs: bars, panels and overlays, and their places. It reads the workspace and emits
-// commands.
+// The window around the labs: bars, panels and overlays, their places, and the sections that unfold for a
+// card or command. It reads the workspace and emits commands.
 #pragma once
 
 #include <imgui.h>
@@ -16,11 +16,24 @@
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/shortcuts.hpp"
-#include "app/shell/unfold.hpp"
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
+#include "app/widgets/emit.hpp"
 
 namespace tendril::app {
+
+struct ShellFrame;
+
+/// Unfolds the sections that hide the rows of a card's step or a palette's command.
+class Unfolding {
+  public:
+    /// Unfolds once for each step, so that the user can fold it again.
+    void for_step(const ShellFrame& frame, const CardStep* step, Emit& emit);
+    void for_command(const ShellFrame& frame, const Emitted& command, Emit& emit);
+
+  private:
+    const CardStep* step_ = nullptr;
+};
 
 /// Divides the window into bars, panels and the 3D view.
 struct Layout {

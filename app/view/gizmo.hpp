@@ -3,7 +3,6 @@
 // the scene; each part has its own pick id.
 #pragma once
 
-#include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

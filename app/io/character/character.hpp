@@ -173,4 +173,8 @@ std::string character_bytes(const std::filesystem::path& path, std::uintmax_t mo
 /// Whether the file name has the extension of a supported file.
 bool ends_as_character(const std::filesystem::path& path);
 
+/// Moves feet that hang outside the legs below them (tendril/humanoid/attach.hpp), where that changes no
+/// motion, and notes what was done or why not.
+void attach_feet(Character& character);
+
 }  // namespace tendril::app

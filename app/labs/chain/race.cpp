@@ -1,4 +1,4 @@
-#include "app/labs/chain/race.hpp"
+#include "app/labs/chain/study.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -7,13 +7,11 @@
 
 #include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"

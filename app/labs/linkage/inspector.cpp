@@ -10,7 +10,6 @@
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

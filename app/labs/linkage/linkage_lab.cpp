@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"

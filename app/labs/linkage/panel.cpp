@@ -9,7 +9,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
@@ -18,7 +17,6 @@
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,8 +1,7 @@
-#include "app/labs/rope/walker.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <stdexcept>
 #include <tendril/humanoid/clip.hpp>

@@ -1,6 +1,5 @@
 // Commands on the whole world, on colliders, and on selection, drags and view.
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "app/labs/kit/arguments.hpp"

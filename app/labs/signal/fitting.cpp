@@ -1,4 +1,3 @@
-#include "app/labs/signal/fitting.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 #include "app/labs/signal/signal_lab.hpp"
 
 #include <algorithm>
-#include <functional>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"

@@ -10,7 +10,6 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/document/json.hpp"
-#include "app/io/character/attach_feet.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/character.hpp"

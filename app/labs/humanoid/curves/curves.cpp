@@ -6,7 +6,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <tendril/humanoid/spring_chain.hpp>
 #include <vector>
