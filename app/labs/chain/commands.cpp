@@ -298,6 +298,9 @@ std::span<const tendril::Field> tendril::fields<tendril::app::Preset>() noexcept
 }
 
 namespace tendril::app {
+
+// Presets.
+
 namespace {
 
 using Segments = std::vector<Segment>;

@@ -4,6 +4,7 @@
 
 #include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"

@@ -292,6 +292,8 @@ NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> 
     return world;
 }
 
+// Drawing.
+
 namespace {
 
 constexpr float min_strain = 1e-4f, full_strain = 0.1f;

@@ -67,6 +67,11 @@ std::span<const RopeSample> of_last_second(const std::vector<RopeSample>& sample
     return std::span(samples).last(std::min(samples.size(), ticks));
 }
 
+// Finds pins that are farther apart than the length between them, and the resulting tensions.
+//
+// Pins and the ends of ties are the nodes of a graph. Its edges are the stretch of rope, strand or cloth
+// between two nodes of a body, and the ties. The shortest path between two pins is their maximum distance.
+
 constexpr std::size_t max_pins = 32;         ///< per body, compared with others
 constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: each pair of them has an edge
 constexpr double too_short = 1.001;          ///< distance of the pins over the length between them
@@ -283,11 +288,6 @@ std::string share_text(float share) {
     const double percent = 100.0 * static_cast<double>(share);
     return percent < 0.01 ? "< 0.01 %" : fixed_text(percent, 2) + " %";
 }
-
-// Finds pins that are farther apart than the length between them, and the resulting tensions.
-//
-// Pins and the ends of ties are the nodes of a graph. Its edges are the stretch of rope, strand or cloth
-// between two nodes of a body, and the ties. The shortest path between two pins is their maximum distance.
 
 std::string force_text(float newtons) {
     const auto value = static_cast<double>(newtons);
