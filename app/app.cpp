@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <tendril/version.hpp>
 #include <utility>
 
@@ -15,7 +14,7 @@
 #include "app/labs/kit/past.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
-#include "app/shell/theme.hpp"
+#include "app/shell/ui.hpp"
 #include "app/video_take.hpp"
 
 namespace tendril::app {

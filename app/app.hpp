@@ -14,7 +14,6 @@
 #include "app/io/image.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
-#include "app/script/player.hpp"
 #include "app/script/recorder.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/shell/shell.hpp"

@@ -1,4 +1,3 @@
-#include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,13 +9,8 @@
 #include <tendril/chain/segment.hpp>
 #include <tendril/version.hpp>
 
-#include "app/batch/code.hpp"
-#include "app/batch/motion.hpp"
 #include "app/batch/output.hpp"
-#include "app/batch/paper_table.hpp"
-#include "app/batch/signal.hpp"
-#include "app/batch/solve.hpp"
-#include "app/batch/trace.hpp"
+#include "app/batch/subcommands.hpp"
 #include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"

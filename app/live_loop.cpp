@@ -1,12 +1,11 @@
 #include "app/live_loop.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/document/pace.hpp"
+#include "app/document/runtime.hpp"
 #include "app/system/environment.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,3 @@
-#include "app/command_line.hpp"
 #include "app/session.hpp"
 #include "app/system/environment.hpp"
 

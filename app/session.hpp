@@ -1,14 +1,17 @@
-// One run of the program, from its options to its exit code.
+// One run of the program, from its arguments to its exit code, with the view that it opens with.
 #pragma once
 
 #include <atomic>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/window/window.hpp"
 
 namespace tendril::app {
+
+class App;
 
 struct SessionOptions {
     std::string scene;  ///< a scene, or another file that a lab reads; empty: none
@@ -36,5 +39,21 @@ void end_session_on_signals();
 void end_at_once_on_signals();
 /// True after a signal that ends the session, for code other than a session.
 const std::atomic<bool>& session_ending();
+
+// Runs the program by its arguments: a session with a window or off screen, a list, or a subcommand.
+
+/// `words` begin with the program's name. Returns the program's exit code: run_session's or the subcommand's,
+/// or 2 for an invalid command line. Errors are printed to stderr, in one line.
+int run_command_line(const std::vector<std::string>& words);
+
+// The view that a window opens with: a moving scene, and the cards of things to try.
+
+/// Whether the session has a window and was given no scene, lab or script.
+bool opens_alive(const SessionOptions& options);
+/// Sets up every lab's opening as a new scene: nothing to undo, nothing to save. The openings move by
+/// themselves until the user takes over (Lab::calm()), which does not mark the scene as modified.
+void open_alive(App& app);
+/// Shows each lab's card unless it was shown or hidden before.
+void offer_cards(App& app);
 
 }  // namespace tendril::app

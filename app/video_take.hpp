@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "app/document/video_request.hpp"
 #include "app/document/workspace.hpp"
 #include "app/io/image.hpp"
 #include "app/io/video_file.hpp"

@@ -1,4 +1,4 @@
-#include "app/batch/code.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include "app/batch/output.hpp"
 #include "app/document/scene_file.hpp"

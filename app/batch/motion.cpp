@@ -1,4 +1,4 @@
-#include "app/batch/motion.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,10 +10,10 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/io/character/bake.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
-#include "app/io/character/read.hpp"
 #include "app/io/character/retargeted_motion.hpp"
-#include "app/labs/humanoid/ik/ground.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril::app {
 namespace {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "app/document/text.hpp"
+#include "app/system/environment.hpp"
 
 namespace tendril::app {
 namespace {
@@ -22,6 +23,12 @@ std::string_view head(std::string_view text, std::size_t count) {
         if (begins_character(text[at]) && count-- == 0) break;
     return text.substr(0, at);
 }
+
+using namespace std::chrono_literals;
+
+constexpr auto first_delay = 1000ms;    // before the first report
+constexpr auto terminal_pause = 100ms;  // between two reports on a terminal
+constexpr auto line_pause = 5000ms;     // between two lines
 
 }  // namespace
 
@@ -66,6 +73,22 @@ std::string column(std::string_view text, std::size_t width) {
     if (width_of(shown) > width) shown = std::string(head(shown, width - 3)) + "...";
     shown.append(width - width_of(shown), ' ');
     return shown;
+}
+
+Progress::Progress() : terminal_(errors_on_terminal()), next_(Clock::now() + first_delay) {}
+
+void Progress::show(const char* what, double done) {
+    const auto now = Clock::now();
+    if (now < next_) return;
+    next_ = now + (terminal_ ? terminal_pause : line_pause);
+    shown_ = true;
+    std::fprintf(stderr, terminal_ ? "\r%s: %3.0f %%" : "tendril: %s: %.0f %%\n", what, 100.0 * done);
+    std::fflush(stderr);
+}
+
+void Progress::clear() {
+    if (shown_ && terminal_) std::fputs("\r\x1b[K", stderr);
+    shown_ = false;
 }
 
 }  // namespace tendril::app

@@ -1,14 +1,34 @@
-// Standard output in blocks, flushed often, with error checks: a full disk must not look like success.
+// Output of the subcommands: rows on standard output, and the progress of a long run on stderr.
 #pragma once
 
 #include <chrono>
 #include <string>
 #include <string_view>
 
-#include "app/batch/progress.hpp"
-
 namespace tendril::app {
 
+/// The progress of a long run, on stderr: updated in place on a terminal, a line every few seconds elsewhere,
+/// and nothing for short runs.
+class Progress {
+  public:
+    Progress();
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// "solving", 0 to 1. Cheap enough to call for every case.
+    void show(const char* what, double done);
+    /// Removes the line from the terminal, before something else is written there.
+    void clear();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_;
+    bool shown_ = false;
+    Clock::time_point next_;
+};
+
+/// Standard output in blocks, flushed often, with error checks: a full disk must not look like success.
 class Output {
   public:
     /// Clears `progress` from the terminal before writing.

@@ -1,11 +1,10 @@
-#include "app/batch/paper_table.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include <cstdio>
 #include <string>
 
 #include "app/batch/output.hpp"
 #include "app/batch/paper.hpp"
-#include "app/batch/progress.hpp"
 
 namespace tendril::app {
 namespace {

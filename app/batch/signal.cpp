@@ -1,11 +1,10 @@
-#include "app/batch/signal.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <tendril/signal/run.hpp>
 
 #include "app/batch/output.hpp"
-#include "app/batch/progress.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/filter_json.hpp"

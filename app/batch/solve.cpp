@@ -1,4 +1,4 @@
-#include "app/batch/solve.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -11,11 +11,9 @@
 
 #include "app/batch/cases.hpp"
 #include "app/batch/output.hpp"
-#include "app/batch/progress.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/io/solver_json.hpp"
-#include "app/io/solver_text.hpp"
 #include "app/labs/labs.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,4 @@
-#include "app/batch/trace.hpp"
+#include "app/batch/subcommands.hpp"
 
 #include <cerrno>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include "app/batch/output.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/system/file.hpp"
 

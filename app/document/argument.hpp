@@ -1,7 +1,9 @@
-// Arguments of commands: how they are declared, and how a command reads them.
+// Arguments of commands: how they are declared, how a command reads them, and those that the commands for
+// pictures and videos share.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -9,10 +11,9 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/document/workspace.hpp"
 
 namespace tendril::app {
-
-struct Workspace;
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
 /// then Z. The command itself checks the elements of a List and a value of type Any.
@@ -78,5 +79,17 @@ class Arguments {
   private:
     const Json& json_;
 };
+
+// Arguments shared by the commands for pictures and videos of the view.
+
+/// `first`, then the members of PictureLook.
+std::vector<Argument> picture_arguments(std::vector<Argument> first = {});
+void set_look(const Arguments& given, PictureLook& look);
+
+/// An unused name beside the scene's file, or in the working directory: "arm-1.png"; with `what`, for a
+/// picture of something other than the view: "arm-race-1.png". Throws Refused outside a window, where a
+/// script has to give the path.
+std::filesystem::path new_file(const Workspace& workspace, const std::string& what = {},
+                               const char* extension = ".png");
 
 }  // namespace tendril::app

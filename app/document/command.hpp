@@ -70,4 +70,14 @@ void add_scene_commands(CommandTable& table);
 /// All commands that need no lab: add_scene_commands(), undo, redo, camera.set, time.*, view.*.
 void add_workspace_commands(CommandTable& table);
 
+// Checks a value against its argument, and describes in words what the argument accepts.
+
+/// "a number", "a point [x, y, z]"
+std::string type_text(ArgumentType type);
+/// With range and choices: "a number, 0 to 1", "one of dark, light".
+std::string rule_text(const Argument& argument);
+
+/// Throws Refused if the value does not fit. The message begins with `where`: "chain.add: length".
+void check_value(const Argument& argument, const Json& value, const std::string& where);
+
 }  // namespace tendril::app

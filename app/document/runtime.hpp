@@ -1,5 +1,6 @@
-// A lab's unsaved working data: solvers' scratch memory, plans, caches. Each lab has one runtime, kept from
-// tick to tick, so that a solver is created once per chain and not once per solve.
+// Unsaved working data: a lab's solvers' scratch memory, plans and caches; and the window's pace and drawn
+// sections. Each lab has one runtime, kept from tick to tick, so that a solver is created once per chain and
+// not once per solve.
 //
 // A runtime is derived from the document. It is in no file, undo entry or recording, and can be discarded
 // between any two commands or ticks without changing a bit of the result: state that a solver must keep from
@@ -8,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace tendril::app {
@@ -43,6 +45,23 @@ class Runtimes {
 
   private:
     mutable std::map<std::string, std::unique_ptr<Runtime>> by_lab_;
+};
+
+// Whether the machine keeps up with real time, for the labs' messages. In a live window only.
+
+/// Seconds that the window catches up after a stall; the rest of a longer one is dropped.
+inline constexpr double max_stall = 0.25;
+
+struct Pace final : Runtime {
+    double kept = 1.0;  ///< fraction of the last second that the ticks kept up with
+};
+inline Pace& pace_of(const Runtimes& runtimes) {
+    return runtimes.of<Pace>("pace");
+}
+
+/// The folding sections that the panels have drawn, so that a command can offer them by name.
+struct DrawnSections final : Runtime {
+    std::set<std::string> names;  ///< "chain: Target"
 };
 
 }  // namespace tendril::app

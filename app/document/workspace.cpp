@@ -30,6 +30,11 @@ void trim(std::map<std::string, Workspace::Past>& pasts) {
     }
 }
 
+/// The card's key in Settings::choices.
+std::string card_key(const std::string& lab) {
+    return "card_" + lab;
+}
+
 }  // namespace
 
 void Workspace::open_lab(const std::string& name) {
@@ -177,6 +182,19 @@ void Workspace::toast(std::string text, ToastKind kind) {
     std::erase_if(toasts, [&](const Toast& toast) { return toast.text == text; });
     toasts.push_back({std::move(text), kind, ticks});
     if (toasts.size() > most) toasts.erase(toasts.begin());
+}
+
+bool card_shown(const Settings& settings, const std::string& lab) {
+    const auto found = settings.choices.find(card_key(lab));
+    return found != settings.choices.end() && found->second == "shown";
+}
+
+void show_card(Settings& settings, const std::string& lab, bool shown) {
+    settings.choices[card_key(lab)] = shown ? "shown" : "put_away";
+}
+
+bool card_known(const Settings& settings, const std::string& lab) {
+    return settings.choices.contains(card_key(lab));
 }
 
 }  // namespace tendril::app

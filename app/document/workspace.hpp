@@ -1,26 +1,102 @@
-// Everything that commands can change: the document, and the program's state around it.
+// Everything that commands can change: the document, and the program's state around it, with the progress of
+// cards and videos.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "app/document/camera_pose.hpp"
-#include "app/document/card_progress.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
+#include "app/document/json.hpp"
 #include "app/document/outputs.hpp"
 #include "app/document/rewind.hpp"
 #include "app/document/runtime.hpp"
 #include "app/document/settings.hpp"
-#include "app/document/video_request.hpp"
 
 namespace tendril::app {
+
+struct Workspace;
+
+// Pictures and videos of the view: what was requested, and the progress of a video.
+
+/// How the view is drawn.
+struct PictureLook {
+    glm::ivec2 size{0};  ///< pixels; 0: as large as the view
+    bool transparent = false;
+    bool paper = false;          ///< in the light theme's colours, on white unless transparent
+    bool handles = false;        ///< with the handles, and the selection marked
+    std::optional<bool> labels;  ///< with its labels, titles and legend; empty: if the lab wants them
+};
+
+/// A picture on its way to a file or to the clipboard.
+struct PictureRequest : PictureLook {
+    std::filesystem::path path;  ///< empty: to the clipboard
+};
+
+/// A video: of the last seconds, or of frames that a lab shows one by one.
+struct VideoRequest : PictureLook {
+    std::filesystem::path path;
+    std::string command = "view.video";  ///< the command that asked for it, for messages
+    int from = 0;                        ///< ticks of 1/60 s before the newest moment in Rewind
+    int to = 0;                          ///< likewise, less than `from`
+    int every = 2;                       ///< ticks from one frame to the next
+    double speed = 1.0;                  ///< playback speed; 0.5 is slow motion
+
+    /// Set for frames that a lab shows instead of the last seconds: their number, and the function that shows
+    /// one in a copy of the workspace. It returns false if the frame looks like the one before.
+    int shown_frames = 0;
+    std::function<bool(Workspace&, int frame)> show{};
+
+    int frames() const { return show ? shown_frames : (from - to) / every + 1; }
+};
+
+/// Progress of the video being written.
+struct VideoProgress {
+    std::string name;  ///< the file's name
+    int done = 0, frames = 0;
+};
+
+// Cards of things to try: the user's progress on each lab's cards in this session. Whether a card is shown is
+// a setting, so that a hidden card stays hidden and a recording reproduces it.
+
+/// Progress of a step that asks the user to repeat a drag after curing the incident that the drag caused.
+struct RepeatedDrag {
+    struct Point {
+        std::uint64_t moment = 0;
+        glm::vec3 at{0.0f};
+    };
+    std::vector<Point> path{};               ///< the step's drags since another command changed the scene
+    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
+    SharedJson incident{};                   ///< the incident to cure, as in the state
+    glm::vec3 place{0.0f}, direction{0.0f};  ///< the drag's, when it caused the incident
+    bool cured = false;
+};
+
+struct CardProgress {
+    std::size_t card = 0;      ///< index among the lab's cards
+    std::vector<bool> done{};  ///< for each step; empty until the first command
+    /// For each step: the moment when its command ran. Empty until then, and again once another command has
+    /// changed the scene.
+    std::vector<std::optional<std::uint64_t>> tried{};
+    std::vector<RepeatedDrag> drags{};   ///< for each step
+    std::shared_ptr<const Part> seen{};  ///< the part at the last check
+    std::uint64_t ticks_to_wait = 0;     ///< until the next check
+};
+
+bool card_shown(const Settings& settings, const std::string& lab);
+void show_card(Settings& settings, const std::string& lab, bool shown);
+/// Whether the user ever showed or hid the card.
+bool card_known(const Settings& settings, const std::string& lab);
 
 inline constexpr double tick_seconds = 1.0 / 60.0;
 

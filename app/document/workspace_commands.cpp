@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/runtime.hpp"
 #include "app/document/text.hpp"
 
 namespace tendril::app {

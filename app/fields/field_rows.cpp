@@ -11,7 +11,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/row_search.hpp"
 
 namespace tendril::app {

@@ -73,6 +73,14 @@ rig::FromUnit read_from_unit(const JsonPlace& place) {
     return from;
 }
 
+/// Accepts any length; the library normalises it.
+glm::dquat read_rotation(const JsonPlace& place, double most) {
+    if (!place.json().is_array() || place.json().size() != 4)
+        place.fail("expected a rotation [x, y, z, w], found " + json_summary(place.json()));
+    return {real_at(place, 3, most), real_at(place, 0, most), real_at(place, 1, most),
+            real_at(place, 2, most)};
+}
+
 }  // namespace
 
 void check_members(const JsonPlace& place, const std::vector<std::string>& known) {
@@ -88,13 +96,6 @@ std::size_t read_name(const JsonPlace& place, std::span<const std::string_view> 
     if (found == names.end())
         place.fail("expected one of " + comma_list(names) + ", found " + json_summary(place.json()));
     return static_cast<std::size_t>(found - names.begin());
-}
-
-glm::dquat read_rotation(const JsonPlace& place, double most) {
-    if (!place.json().is_array() || place.json().size() != 4)
-        place.fail("expected a rotation [x, y, z, w], found " + json_summary(place.json()));
-    return {real_at(place, 3, most), real_at(place, 0, most), real_at(place, 1, most),
-            real_at(place, 2, most)};
 }
 
 Json transform_json(const rig::Transform& transform) {

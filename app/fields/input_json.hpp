@@ -3,7 +3,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,8 +26,6 @@ inline std::size_t read_name(const JsonPlace& place, std::initializer_list<std::
 inline constexpr double most_given = 1e9, max_reached = 1e100;
 
 // The readers below refuse numbers larger than `most` in magnitude.
-/// Accepts any length; the library normalises it.
-glm::dquat read_rotation(const JsonPlace& place, double most = most_given);
 
 Json transform_json(const rig::Transform& transform);
 /// Omitted members are taken from `otherwise`.

@@ -8,7 +8,6 @@
 #include "app/document/json_place.hpp"
 #include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
-#include "app/io/solver_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -72,6 +71,32 @@ std::span<const char* const> solver_names() {
 
 std::string method_names() {
     return comma_list(solver_names());
+}
+
+const char* solver_title(ik::Method method) {
+    static constexpr const char* titles[] = {
+        "FABRIK, accelerated",      "FABRIK (2011)", "CCD", "Jacobian transpose", "Damped least squares",
+        "SVD damped least squares", "Two-bone"};
+    return titles[static_cast<std::size_t>(method)];
+}
+
+const char* outcome_name(ik::Status status) {
+    static constexpr const char* names[] = {"converged", "out of reach",     "too close",    "at its limits",
+                                            "stalled",   "did not converge", "not supported"};
+    return names[static_cast<std::size_t>(status)];
+}
+
+std::string ran_text(ik::Method method, const ik::Report& report) {
+    std::string text = solver_title(method);
+    const bool closed = report.closed_form && report.iterations == 0 && method != ik::Method::TwoBone;
+    if (closed) return text + ", solved in closed form";
+    if (report.least_squares_steps > 0) text += " + least squares";
+    const auto count = [&text](int number, const char* what) {
+        if (number > 0) text += ", " + count_text(static_cast<std::size_t>(number), what);
+    };
+    count(report.perturbations, "perturbation");
+    count(report.restarts, "restart");
+    return text;
 }
 
 }  // namespace tendril::app

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "app/document/card_progress.hpp"
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/document/workspace.hpp"
 #include "app/fields/input_json.hpp"
 #include "app/view/assets.hpp"
 

@@ -16,7 +16,6 @@
 #include "app/document/argument_list.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/setting.hpp"
-#include "app/labs/kit/shortcut.hpp"
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/view/gizmo.hpp"

@@ -1,4 +1,3 @@
-#include "app/labs/lab_commands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +6,9 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
+#include "app/document/argument.hpp"
 #include "app/document/command.hpp"
-#include "app/document/picture_arguments.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/film.hpp"
 #include "app/labs/labs.hpp"
 

@@ -1,8 +1,10 @@
-// The open lab's gizmo: drawn over its picture, and its parts listed by name in --state.
+// The gizmos in the view: the open lab's, drawn over its picture, with its parts listed by name in --state;
+// and the axis gizmo in the corner.
 #pragma once
 
 #include "app/labs/lab.hpp"
 #include "app/shell/input.hpp"
+#include "app/shell/shell.hpp"
 
 namespace tendril::app {
 
@@ -30,5 +32,12 @@ void show_constraint(DrawList& list, const Lab& lab, const View& view, const Poi
 /// The same as text for the status line: "Moving 0.42 m along Z, 0.40 m nearer."; empty without such a drag.
 std::string constraint_hint(const Lab& lab, const Workspace& workspace, const Camera& camera,
                             const Pointer& pointer, const Input& input);
+
+// The axis gizmo in the view's corner, which shows the viewing direction. A click on an axis looks along it.
+
+/// Pixels from the right edge of the view to the left edge of the gizmo; 0 if the view is too small for it.
+float axis_gizmo_width(glm::vec2 pane, float scale);
+/// Draws the gizmo and returns its rectangle, which is empty if the view is too small.
+Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit);
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// Draws the text of the view beneath the panels: labels beside their points, and the legend. The window and
-// pictures (picture_text.hpp) use the same functions.
+// Draws the text of the view beneath the panels: labels beside their points, the legend, the panes' titles,
+// and boxes. The window and pictures (picture_text.hpp) use the same functions.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -9,6 +9,7 @@
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/view/palette.hpp"
+#include "app/view/panes.hpp"
 
 namespace tendril::app {
 
@@ -25,5 +26,15 @@ Rect legend_box(std::span<const LegendRow> rows, const Rect& view, float scale,
 /// Returns legend_box().
 Rect show_legend(std::span<const LegendRow> rows, const Rect& view, const Palette& palette, float scale,
                  ViewCorner corner = lower_left);
+
+/// Titles in the panes' top left corners, and lines between the panes. Draws nothing for a single pane.
+/// `axes`: the axis gizmo is in the top right corner of the view.
+void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> titles, const Palette& palette,
+                      float scale, bool axes);
+
+/// The selection box that the user draws.
+void show_selection_box(const Rect& box, const Palette& palette, float scale);
+/// The stroke that is being drawn.
+void show_stroke(glm::vec2 from, glm::vec2 to, const Palette& palette, float scale);
 
 }  // namespace tendril::app

@@ -1,22 +1,19 @@
-// Overlays on the scene: help, settings, toasts and the first hint.
+// Overlays on the scene: help, settings, toasts, the first hint, the progress of a video, and questions.
 #include <imgui.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/labs/lab_commands.hpp"
-#include "app/shell/axis_gizmo.hpp"
+#include "app/labs/labs.hpp"
+#include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/shell.hpp"
-#include "app/shell/theme.hpp"
+#include "app/shell/ui.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/fonts.hpp"
-#include "app/widgets/lists.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -241,6 +238,93 @@ Rect show_first_hint(const ShellFrame& frame) {
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
     return {{at.x, at.y}, {at.x + width, at.y + size_of(text).y}};
+}
+
+// The progress of the video being written, and a button to cancel it.
+
+void show_filming(const ShellFrame& frame, Emit& emit) {
+    const auto& filming = frame.workspace.ui.filming;
+    if (!filming) return;
+    const float scale = frame.layout.scale;
+    const Rect& view = frame.layout.view;
+    const float width = std::min(340.0f * scale, frame.screen().x);
+    ImGui::SetNextWindowPos({view.centre().x, view.min.y + 16.0f * scale}, ImGuiCond_Always, {0.5f, 0.0f});
+    ImGui::SetNextWindowSize({width, 0.0f});
+    ImGui::Begin("video", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    text_elided("Writing " + filming->name, ImGui::GetContentRegionAvail().x);
+    explain(
+        "You can go on working while the video is written. It shows the scene as it was when you started "
+        "it.");
+    const float part = static_cast<float>(filming->done) / static_cast<float>(std::max(1, filming->frames));
+    const bool all = filming->done == filming->frames;
+    const std::string count =
+        all ? "finishing the file"
+            : "frame " + std::to_string(filming->done) + " of " + std::to_string(filming->frames);
+    const float button = ImGui::CalcTextSize("Cancel").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, imgui_colour(frame.colours().accent, 0.5f));
+    ImGui::ProgressBar(part, {-button - ImGui::GetStyle().ItemSpacing.x, 0.0f}, count.c_str());
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) emit("view.end_video");
+    explain("Esc: cancels the video; no file is left");
+    ImGui::End();
+}
+
+// Questions: about unsaved work, before quitting and after a crash; and how to open a file.
+
+void show_recovery(const ShellFrame& frame, Emit& emit) {
+    const auto& offers = frame.workspace.ui.recoverable;
+    if (offers.empty()) return;
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 165.0f * scale}))
+        emit("scene.recover_later");
+    note("Tendril ended before this work was saved:");
+    text_elided(offers.front().title, ImGui::GetContentRegionAvail().x);
+    explain(offers.front().file.string().c_str());
+    ImGui::Spacing();
+    const ArgumentList path{{"path", offers.front().file.string()}};
+    if (row_button("Recover it", 2, true, "Opens the unsaved scene")) emit("scene.recover", path);
+    if (row_button("Delete it", 2, true, "Deletes this work for good; the open scene stays"))
+        emit("scene.discard", path);
+    ImGui::End();
+}
+
+void show_quit(const ShellFrame& frame, Emit& emit) {
+    if (!frame.workspace.ui.asks_to_quit) return;
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 120.0f * scale})) emit("view.close");
+    const std::filesystem::path& path = frame.workspace.path;
+    const std::string rest = " has unsaved changes.";
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(rest.c_str()).x;
+    ImGui::TextUnformatted(
+        (elided(path.empty() ? "The scene" : path.filename().string(), room) + rest).c_str());
+    ImGui::Spacing();
+    const bool named = !path.empty();
+    if (row_button(named ? "Save" : "Save...", 3, true, "Saves the scene, then quits"))
+        emit("quit", {{"unsaved", "save"}});
+    if (row_button("Discard", 3, true, "Quits; the changes are lost")) emit("quit", {{"unsaved", "discard"}});
+    if (row_button("Cancel", 3, true, "Esc: goes on working")) emit("view.close");
+    ImGui::End();
+}
+
+void show_file_question(const ShellFrame& frame, Emit& emit) {
+    const auto& [path, ways] = frame.workspace.ui.file_question;
+    if (ways.empty()) return;
+    const float scale = frame.layout.scale;
+    const std::string file = std::filesystem::path(path).filename().string();
+    if (!begin_sheet("Open a file", frame.screen(),
+                     {460.0f * scale, (112.0f + 36.0f * static_cast<float>(ways.size())) * scale}))
+        emit("view.close");
+    text_elided(file, ImGui::GetContentRegionAvail().x);
+    explain(path.c_str());
+    ImGui::Spacing();
+    for (const FileWay& way : ways)
+        if (row_button(way.title.c_str(), 1, true, way.help.c_str()))
+            emit("file.open", {{"path", path}, {"by", way.command}});
+    if (row_button("Cancel", 1, true, "Esc: opens nothing")) emit("view.close");
+    ImGui::End();
 }
 
 }  // namespace tendril::app

@@ -9,8 +9,6 @@
 #include <limits>
 
 #include "app/shell/labels_view.hpp"
-#include "app/shell/panes_view.hpp"
-#include "app/shell/theme.hpp"
 #include "app/shell/ui.hpp"
 
 namespace tendril::app {

@@ -12,7 +12,7 @@
 #include "app/labs/lab.hpp"
 #include "app/shell/input.hpp"
 #include "app/shell/shortcuts.hpp"
-#include "app/view/gizmo_drag.hpp"
+#include "app/view/gizmo.hpp"
 #include "app/window/window.hpp"
 
 namespace tendril::app {

@@ -1,23 +1,25 @@
 #include "app/shell/shell.hpp"
 
 #include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
-#include "app/shell/axis_gizmo.hpp"
-#include "app/shell/card_view.hpp"
+#include "app/shell/card_watch.hpp"
+#include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/number_entry.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -57,6 +59,20 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
         emit.continuously("view.panel_width",
                           {{"side", left ? "left" : "right"}, {"width", std::clamp(width, 180.0f, 520.0f)}});
     }
+}
+
+/// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
+/// contents do not fit. Always call ImGui::End() after it.
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding,
+                  bool scrolls = false) {
+    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
+    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::Begin(name, nullptr, scrolls ? region_flags & ~ImGuiWindowFlags_NoScrollbar : region_flags);
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
 }
 
 /// The strip that a folded panel leaves, to unfold it.
@@ -262,6 +278,26 @@ std::string with_change(const CommandTable& commands, const char* title, const s
     return std::string(title) + ": " + lower_case(command->title.substr(0, 1)) + command->title.substr(1);
 }
 
+/// Unfolds the section of that title, if there is one, and the sections that hide a row of the command.
+void unfold(const ShellFrame& frame, const std::string& title, const std::string& command,
+            const Json& arguments, Emit& emit) {
+    RowSearch search{.title = title, .command = command};
+    for (const auto& [name, value] : arguments.items()) search.arguments.push_back(name);
+    {
+        const SearchWindow window(search);
+        Emit unused;
+        frame.lab.panel(frame.workspace, unused);
+        search.inside.clear();
+        frame.lab.inspector(frame.workspace, unused);
+    }
+    std::vector<std::string> unfolded;
+    for (const std::string& section : search.found) {
+        if (std::ranges::find(unfolded, section) != unfolded.end()) continue;
+        unfolded.push_back(section);
+        emit("view.fold", {{"section", section}, {"folded", false}});
+    }
+}
+
 }  // namespace
 
 std::string undo_title(const CommandTable& commands, const History& history) {
@@ -270,17 +306,6 @@ std::string undo_title(const CommandTable& commands, const History& history) {
 
 std::string redo_title(const CommandTable& commands, const History& history) {
     return with_change(commands, "Redo", history.redo_label());
-}
-
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls) {
-    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
-    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::Begin(name, nullptr, scrolls ? region_flags & ~ImGuiWindowFlags_NoScrollbar : region_flags);
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
 }
 
 /// Content that became shorter cannot keep its scroll position. When it is long again, as after undo, the
@@ -392,6 +417,55 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     show_quit(frame, emit);
     show_file_question(frame, emit);
     show_toasts(frame);
+}
+
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas) {
+    constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
+    constexpr float min_view = 0.34f;  // fraction of the width that the middle always keeps
+
+    // Only one panel fits in a narrow window, or with text so large that two would be too narrow for their
+    // labels. It may then be as wide as both.
+    constexpr float narrow = 900.0f, usual_width = 272.0f;
+    const float both = std::max(0.0f, (1.0f - min_view) * window.x);
+    const bool one_panel = window.x < narrow || 2.0f * usual_width * scale > both;
+    const float most = one_panel ? std::max(0.5f * both, both - folded * scale) : 0.5f * both;
+    const auto side = [&](bool open, float width) {
+        return std::round(std::min((open ? width : folded) * scale, most));
+    };
+    const bool right_open = settings.right_open && !(one_panel && settings.left_open);
+    const float left = side(settings.left_open, settings.left_width);
+    const float right = side(right_open, settings.right_width);
+    const float top = std::round(bar * scale);
+    const float low = std::max(top, window.y - std::round(status * scale));
+    // The scene always keeps half of the height.
+    const float strip = std::min(std::round(timeline * scale), std::max(0.0f, 0.5f * (low - top)));
+    const float middle = low - std::floor(strip);
+
+    Layout layout;
+    layout.scale = scale;
+    layout.left_open = settings.left_open;
+    layout.right_open = right_open;
+    layout.one_panel = one_panel;
+    layout.top = {{0.0f, 0.0f}, {window.x, top}};
+    layout.status = {{0.0f, low}, {window.x, window.y}};
+    layout.left = {{0.0f, top}, {left, low}};
+    layout.right = {{window.x - right, top}, {window.x, low}};
+    layout.timeline = {{left, middle}, {window.x - right, low}};
+    const float split = std::round(left + canvas * (window.x - right - left));
+    layout.canvas = {{left, top}, {split, middle}};
+    layout.view = {{split, top}, {window.x - right, middle}};
+    return layout;
+}
+
+void Unfolding::for_step(const ShellFrame& frame, const CardStep* step, Emit& emit) {
+    if (std::exchange(step_, step) == step || step == nullptr || step->place == CardStep::Place::Handle)
+        return;
+    for (const CardLine& line : step->by)
+        unfold(frame, step->place_name, line.command, *line.arguments, emit);
+}
+
+void Unfolding::for_command(const ShellFrame& frame, const Emitted& command, Emit& emit) {
+    unfold(frame, "", command.name, *command.arguments, emit);
 }
 
 }  // namespace tendril::app

@@ -1,24 +1,52 @@
-// The window around the labs: bars, panels and overlays. It reads the workspace and emits commands.
+// The window around the labs: bars, panels and overlays, their places, and the sections that unfold for a
+// card or command. It reads the workspace and emits commands.
 #pragma once
 
 #include <imgui.h>
-
+#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "app/document/settings.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
-#include "app/shell/layout.hpp"
 #include "app/shell/shortcuts.hpp"
-#include "app/shell/unfold.hpp"
+#include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
+#include "app/widgets/emit.hpp"
 
 namespace tendril::app {
+
+struct ShellFrame;
+
+/// Unfolds the sections that hide the rows of a card's step or a palette's command.
+class Unfolding {
+  public:
+    /// Unfolds once for each step, so that the user can fold it again.
+    void for_step(const ShellFrame& frame, const CardStep* step, Emit& emit);
+    void for_command(const ShellFrame& frame, const Emitted& command, Emit& emit);
+
+  private:
+    const CardStep* step_ = nullptr;
+};
+
+/// Divides the window into bars, panels and the 3D view.
+struct Layout {
+    Rect top, left, right, timeline, status, canvas, view;
+    float scale = 1.0f;
+    bool left_open = true, right_open = true;
+    bool one_panel = false;  ///< only one side panel fits
+};
+
+/// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
+/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`: the
+/// fraction of the middle, from the left, that the lab's own plots take from the 3D view, 0 to 1.
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 /// The contents of a frame of the shell.
 struct ShellFrame {
@@ -84,10 +112,6 @@ void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
 /// Returns its rectangle, empty if not shown.
 Rect show_first_hint(const ShellFrame& frame);
-
-/// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
-/// contents do not fit. Always call ImGui::End() after it.
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
 
 /// Begins a window in the middle of the screen, of the wanted size in pixels, clamped to fit the
 /// screen. Returns false once it is closed by Escape or the cross.

@@ -1,5 +1,5 @@
-// The single table of keys and mouse gestures: the shell's rows and every lab's. The handlers, the menu, the
-// help overlay, the tooltips and the README's list all come from it.
+// The single table of keys and mouse gestures: the shell's rows, every lab's, and the camera's as the user
+// chose them. The handlers, the menu, the help overlay, the tooltips and the README's list all come from it.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,35 @@
 #include <string_view>
 #include <vector>
 
-#include "app/labs/kit/shortcut.hpp"
+#include "app/document/settings.hpp"
+#include "app/labs/kit/setting.hpp"
 #include "app/labs/labs.hpp"
-#include "app/shell/mouse_preset.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {
+
+// Mouse bindings for the camera: Tendril's own, or the ones a user knows from another program.
+
+enum class MousePreset { Tendril, Blender, Maya };
+MousePreset mouse_preset(const Settings& settings);
+
+/// The effect of the wheel, or two fingers on a touchpad, in the view. Pan: they zoom while Ctrl is held.
+enum class Scroll { Zoom, Pan };
+Scroll scroll_action(const Settings& settings);
+
+enum class MouseAction { Orbit, Pan, Zoom };
+struct HeldKeys {
+    bool shift = false, ctrl = false, alt = false;
+    bool operator==(const HeldKeys&) const = default;
+};
+/// The effect of a drag with that button; none if it acts on handles. A left drag that begins on empty space
+/// orbits, in every preset.
+std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held);
+
+/// "Right-drag turns the view, middle-drag shifts it, the wheel zooms."
+std::string view_hint(MousePreset preset, Scroll scroll = Scroll::Zoom);
+/// "Right-drag turns the view."
+std::string orbit_hint(MousePreset preset);
 
 class CommandTable;
 

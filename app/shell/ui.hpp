@@ -1,11 +1,13 @@
-// Sets up Dear ImGui: context, fonts, backend, and our input as its only input. No ini file, a fixed time
-// step and no blinking cursor, so that the same events give the same pixels.
+// Sets up Dear ImGui: context, fonts, look, backend, and our input as its only input. No ini file, a fixed
+// time step and no blinking cursor, so that the same events give the same pixels.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 #include "app/document/settings.hpp"
 #include "app/shell/input.hpp"
+#include "app/view/palette.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
@@ -46,5 +48,9 @@ class Ui {
     float font_ratio_ = 0.0f;
     Theme theme_ = Theme::Dark;
 };
+
+// The look of the panels: Dear ImGui's style from the palette, and the fonts.
+
+void apply_theme(Theme theme, float scale);
 
 }  // namespace tendril::app

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/view/edges.hpp"
-#include "app/view/surface_support.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {

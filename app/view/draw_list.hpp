@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "app/view/mesh.hpp"
 #include "app/view/skinned_mesh.hpp"
 
 namespace tendril::app {

@@ -1,7 +1,6 @@
 #include "app/view/renderer.hpp"
 
 #include "app/view/renderer_backdrop.hpp"
-#include "app/view/renderer_mesh.hpp"
 #include "app/view/renderer_shadows.hpp"
 #include "app/view/renderer_skin.hpp"
 #include "app/view/renderer_strokes.hpp"

@@ -1,4 +1,4 @@
-// The gradient and the grid behind all strokes, cached while the camera is still.
+// The background gradient and the grid on the ground, behind all strokes, cached while the camera is still.
 //
 // On a software rasteriser these two take longer than the rest of a small scene, and do not change while the
 // user drags a chain or watches a rope swing. When a second frame in a row asks for the same backdrop it is
@@ -11,9 +11,30 @@
 #include <vector>
 
 #include "app/view/gl_objects.hpp"
-#include "app/view/renderer_grid.hpp"
+#include "app/view/renderer.hpp"
 
 namespace tendril::app {
+
+class BackgroundPass {
+  public:
+    /// Covers the whole framebuffer. Like all passes, returns the number of draw calls.
+    int draw(const Palette& palette, const Frame& frame) const;
+
+  private:
+    Program program_{"background.vert", "background.frag"};
+    Instances whole_{0, {}};
+};
+
+class GridPass {
+  public:
+    /// Draws into the camera's viewport, which is the GL viewport. Ignores depth: objects below the ground
+    /// show through it.
+    int draw(const Camera& camera, const Palette& palette, const Frame& frame) const;
+
+  private:
+    Program program_{"grid.vert", "grid.frag"};
+    Instances whole_{0, {}};
+};
 
 /// Framebuffer pixels from the bottom left.
 struct PixelRect {

@@ -1,7 +1,7 @@
-// Skins on the GPU. A SkinnedMesh is sent once and kept as long as the mesh lives; the joints' matrices are
-// sent each frame. Solid skins are drawn with the other solids. Transparent ones follow after all solids of
-// the scene: first depth alone, then only the nearest surface, blended over the picture so far, so that
-// neither inner walls nor the order of triangles show.
+// Solids on the GPU: skins, and the mesh of a DrawList. A SkinnedMesh is sent once and kept as long as the
+// mesh lives; the joints' matrices are sent each frame. Solid skins are drawn with the other solids.
+// Transparent ones follow after all solids of the scene: first depth alone, then only the nearest surface,
+// blended over the picture so far, so that neither inner walls nor the order of triangles show.
 #pragma once
 
 #include <map>
@@ -34,6 +34,19 @@ class SkinPass {
     GLuint matrices_ = 0, matrices_texture_ = 0, white_ = 0;
     std::size_t matrices_capacity_ = 0;  ///< bytes
     std::map<const SkinnedMesh*, std::unique_ptr<Sent>> sent_;
+};
+
+// The mesh of a DrawList, in one draw call.
+
+class MeshPass {
+  public:
+    /// Draws into the bound framebuffer; the GL viewport must be all of it. Returns the number of draw calls:
+    /// 0 for an empty mesh, else 1. With an opacity below 1, it does not write depth and so hides nothing.
+    int draw(const Mesh& mesh, const Camera& camera, const Frame& frame, float opacity = 1.0f);
+
+  private:
+    Program program_{"mesh.vert", "mesh.frag"};
+    Triangles triangles_;
 };
 
 }  // namespace tendril::app

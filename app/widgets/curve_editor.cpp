@@ -1,4 +1,4 @@
-#include "app/widgets/curve_editor.hpp"
+#include "app/widgets/plot.hpp"
 
 #include <imgui.h>
 

@@ -6,8 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/document/units.hpp"
-#include "app/widgets/expression.hpp"
+#include "app/document/text.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/tooltip.hpp"

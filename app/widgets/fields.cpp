@@ -9,13 +9,12 @@
 #include <cstdio>
 #include <limits>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/widgets/emit.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
-#include "app/widgets/section_light.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -50,10 +49,6 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
     value = std::isfinite(wanted) ? wanted : std::copysign(most, wanted);
     return true;
 }
-
-}  // namespace
-
-namespace {
 
 void line_below() {
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -1,4 +1,3 @@
-#include "app/widgets/lists.hpp"
 
 #include <imgui.h>
 #include <imgui_internal.h>  // the window under the mouse, and closing popups from outside
@@ -9,7 +8,7 @@
 
 #include "app/widgets/fields.hpp"
 #include "app/widgets/number_entry.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,7 +1,7 @@
 // A number field that is dragged sideways, or typed into after a click.
 //
 // A click selects the number's text; typing takes effect on Enter, Tab or a click elsewhere, and Escape
-// cancels it. expression.hpp defines the syntax: "1/3", "30 cm". Invalid input turns red, with the reason
+// cancels it. read_number() defines the syntax: "1/3", "30 cm". Invalid input turns red, with the reason
 // below it. Tab moves to the next enabled number. A drag is clamped to the range; Shift makes it ten times
 // finer.
 #pragma once
@@ -10,8 +10,9 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "app/widgets/lists.hpp"
+#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 
@@ -59,5 +60,25 @@ NumberEditing& number_editing();
 /// after the number. `whole`: only whole numbers are valid. `at_zero`: shown instead of 0, such as "never".
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
                                    const char* format, bool whole = false, const char* at_zero = nullptr);
+
+// Parses text typed into a number field: a number or an arithmetic expression, with or without a unit.
+//
+//     read_number("1/3", "").value            // 0.333...
+//     read_number("30 cm", "m").value         // 0.3
+//     read_number("2*pi rad", "\u00b0").value // 360
+//     read_number("three", "m").error         // "three" is not a number
+
+struct TypedNumber {
+    std::optional<double> value;  ///< in the field's unit; finite, or infinite on overflow
+    std::string error;            ///< a sentence to display; empty if there is a value
+};
+
+/// Accepts numbers in C++ syntax, +, -, *, /, ^, parentheses and `pi`, then optionally a unit of the whole:
+/// one of the same kind as the field's `unit` (lengths, angles, times, speeds, angular speeds, frequencies,
+/// percentages).
+TypedNumber read_number(std::string_view text, std::string_view unit);
+
+/// The unit that follows the number in a printf format: "m" of "%.3f m", "%" of "%.0f %%".
+std::string unit_of(std::string_view format);
 
 }  // namespace tendril::app

@@ -1,10 +1,11 @@
-// Curves over a grid with labelled axes.
+// Curves over a grid with labelled axes, to read and to edit.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <tendril/signal/curve.hpp>
 #include <vector>
 
 namespace tendril::app {
@@ -59,5 +60,21 @@ PlotStroke plot(const char* id, std::span<const Curve> curves, const PlotAxes& a
 
 /// A small square of colour before the next item.
 void colour_mark(glm::vec3 colour);
+
+// The marks of an axis: their spacing and their texts.
+
+/// The smallest of ..., 0.1, 0.2, 0.5, 1, 2, 5, ... that is at least `smallest`.
+double axis_step(double smallest);
+/// All marks have the unit of the largest one, and the decimals that a step needs: "0.5 s" and "2 s" for
+/// steps of 0.5 up to 2, "100 ms" for steps of 0.1 up to 0.5.
+std::string axis_text(double value, double step, double largest, const char* unit);
+
+// Edits a curve by its keys: drag to move one, double-click to add one, right-click to remove one. The active
+// key's tangents are dragged by their ends.
+
+/// True in a frame in which the user changed the curve. Fills the available width; `height` is in lines of
+/// text. `input`, in 0 to 1 of the source range, is shown as a point on the curve; values outside are not
+/// shown.
+bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float height, double input);
 
 }  // namespace tendril::app

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-#include "app/widgets/axis.hpp"
+#include "app/widgets/plot.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,10 +1,10 @@
-#include "app/window/egl_window.hpp"
+#include "app/window/window.hpp"
 
 #include <stdexcept>
 
+#include "app/system/shared_library.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/offscreen_window.hpp"
-#include "app/system/shared_library.hpp"
 
 #ifdef TENDRIL_HAS_EGL
 #define EGL_NO_X11  // keeps X11's macros out

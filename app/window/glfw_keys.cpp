@@ -1,4 +1,4 @@
-#include "app/window/glfw_keys.hpp"
+#include "app/window/keys.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

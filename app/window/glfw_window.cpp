@@ -1,4 +1,4 @@
-#include "app/window/glfw_window.hpp"
+#include "app/window/window.hpp"
 
 // Our GL declarations come first, so that GLFW includes none.
 #include "app/window/gl.hpp"
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/window/glfw_keys.hpp"
+#include "app/window/keys.hpp"
 #include "app/window/offscreen_window.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,5 @@
-// Keys by name: the names that scripts, recordings, the shortcut table and the README share.
+// Keys by name: the names that scripts, recordings, the shortcut table and the README share; and GLFW's codes
+// for them.
 #pragma once
 
 #include <optional>
@@ -105,5 +106,13 @@ std::string chord_name(const Chord& chord);
 std::string chord_label(const Chord& chord);
 /// Parses chord_name's form, with modifiers in any order and any case.
 std::optional<Chord> chord_from_name(std::string_view name);
+
+// Converts GLFW's key codes, which are positions on the keyboard, to the keys' labels.
+
+/// The key as labelled by the current layout: Ctrl+Z is at the key labelled Z. Keys of other scripts
+/// (Cyrillic, Greek) are named by their position on a US keyboard. Number pad keys map to digits.
+Key translated_key(int glfw_key, int scancode);
+
+std::string utf8(unsigned codepoint);
 
 }  // namespace tendril::app

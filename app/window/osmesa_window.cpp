@@ -1,10 +1,10 @@
-#include "app/window/osmesa_window.hpp"
+#include "app/window/window.hpp"
 
 #include <stdexcept>
 
+#include "app/system/shared_library.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/offscreen_window.hpp"
-#include "app/system/shared_library.hpp"
 
 #ifdef TENDRIL_HAS_OSMESA
 #include <GL/osmesa.h>

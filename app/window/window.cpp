@@ -3,10 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/window/egl_window.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/glfw_window.hpp"
-#include "app/window/osmesa_window.hpp"
 
 namespace tendril::app {
 

@@ -1,5 +1,5 @@
-// A window with a GL 3.3 core context and events, on or off screen. The frame loop (app.cpp) runs the same
-// code on each.
+// A window with a GL 3.3 core context and events, on or off screen, by GLFW, EGL or OSMesa. The frame loop
+// (app.cpp) runs the same code on each.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -51,5 +51,19 @@ std::unique_ptr<Window> open_window(Backend backend, glm::ivec2 size);
 
 /// Opens an off-screen window with OSMesa or, if that fails, with EGL without a surface.
 std::unique_ptr<Window> open_offscreen(glm::ivec2 size);
+
+// Off screen through EGL without a surface (EGL_MESA_platform_surfaceless), drawing into a framebuffer
+// object. Needed since Mesa 25.1, which removed OSMesa.
+
+std::unique_ptr<Window> open_egl_window(glm::ivec2 size);
+
+// Off screen with OSMesa, Mesa's software rasteriser: needs no display and no graphics card.
+
+std::unique_ptr<Window> open_osmesa_window(glm::ivec2 size);
+
+// Windows of the system: on the screen, or hidden to draw off screen.
+
+std::unique_ptr<Window> open_glfw_window(glm::ivec2 size);
+std::unique_ptr<Window> open_hidden_window(glm::ivec2 size);
 
 }  // namespace tendril::app

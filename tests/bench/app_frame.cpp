@@ -11,7 +11,7 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/opening.hpp"
+#include "app/session.hpp"
 
 namespace tendril::app {
 namespace {

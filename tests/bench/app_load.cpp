@@ -5,7 +5,7 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/io/character/bvh.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/labs.hpp"
 

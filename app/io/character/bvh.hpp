@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "app/io/character/character.hpp"
-#include "app/io/character/progress.hpp"
 
 namespace tendril::app {
 

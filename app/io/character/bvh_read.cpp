@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/unique_names.hpp"
 

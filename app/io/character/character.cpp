@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 

@@ -1,10 +1,13 @@
-// A character from a file: its skeleton, skin and clips, converted to Y up and metres.
+// A character from a file, and its reader: skeleton, skin and clips, converted to Y up and metres.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <tendril/humanoid/bone_map.hpp>
 #include <tendril/humanoid/clip.hpp>
@@ -15,6 +18,28 @@
 #include "app/io/character/skin.hpp"
 
 namespace tendril::app {
+
+/// Progress and cancellation of reading a file, shared between threads.
+class LoadProgress {
+  public:
+    /// Called by the reader: `part` of the file is read, 0 to 1. Throws std::runtime_error if cancelled.
+    void at(double part) {
+        part_.store(static_cast<float>(part), std::memory_order_relaxed);
+        if (cancelled()) throw std::runtime_error("cancelled");
+    }
+    float part() const { return part_.load(std::memory_order_relaxed); }
+    void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+    bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+  private:
+    std::atomic<float> part_{0.0f};
+    std::atomic<bool> cancelled_{false};
+};
+
+/// For readers; `progress` may be null.
+inline void report(LoadProgress* progress, double part) {
+    if (progress) progress->at(part);
+}
 
 /// The bone assignment stated in a file.
 struct NamedBones {
@@ -133,5 +158,23 @@ struct UnitDoubt {
 std::optional<UnitDoubt> doubted_unit(double height, double scale, const humanoid::BoneMap& map);
 /// "This figure is 172.00 m tall at rest; if the file is in centimetres, 1.72 m."
 std::string text(const UnitDoubt& doubt);
+
+// Reads a character from any supported file, by its extension: glTF and GLB (including VRM), FBX, BVH.
+
+/// Throws std::runtime_error that begins with the file's name if the file does not exist, has an unknown
+/// format, is invalid, has no skeleton, has more nodes than Skeleton::max_nodes, or has a clip that
+/// humanoid::check() refuses. May run in its own thread.
+Character read_character(const std::filesystem::path& path, LoadProgress* progress = nullptr);
+
+/// The first `most` bytes of such a file, up to 1 GB. Throws std::runtime_error that begins with the file's
+/// name.
+std::string character_bytes(const std::filesystem::path& path, std::uintmax_t most = UINTMAX_MAX);
+
+/// Whether the file name has the extension of a supported file.
+bool ends_as_character(const std::filesystem::path& path);
+
+/// Moves feet that hang outside the legs below them (tendril/humanoid/attach.hpp), where that changes no
+/// motion, and notes what was done or why not.
+void attach_feet(Character& character);
 
 }  // namespace tendril::app

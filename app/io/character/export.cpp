@@ -10,10 +10,9 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/io/character/bvh.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/read.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/io/character/figure_body.hpp"
+#include "app/io/character/stick_figure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,6 @@
 #include <span>
 #include <utility>
 #include <vector>
-
-#include "app/io/character/figure_field.hpp"
 
 namespace tendril::app {
 namespace {

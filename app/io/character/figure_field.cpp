@@ -1,4 +1,4 @@
-#include "app/io/character/figure_field.hpp"
+#include "app/io/character/stick_figure.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 // nodes, such as those of meshes, cameras and lights, are omitted. In a file without a skin it is the whole
 // tree of the nodes that are animated or VRM bones.
 //
-// The character also gets a VRM file's springs (gltf_vrm_springs.hpp).
+// The character also gets a VRM file's springs (gltf_vrm.hpp).
 //
 // Mended, each with a note: keys before 0 s, keys at the same time as another, rotations of length 0, and
 // nodes of scale 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor
@@ -19,7 +19,6 @@
 #include <string_view>
 
 #include "app/io/character/character.hpp"
-#include "app/io/character/progress.hpp"
 
 namespace tendril::app {
 

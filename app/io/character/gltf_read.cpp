@@ -6,12 +6,10 @@
 
 #include "app/document/text.hpp"
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/gltf_accessor.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_keys.hpp"
-#include "app/io/character/gltf_parse.hpp"
 #include "app/io/character/gltf_skin.hpp"
 #include "app/io/character/gltf_vrm.hpp"
-#include "app/io/character/gltf_vrm_springs.hpp"
 #include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {

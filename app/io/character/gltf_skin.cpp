@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "app/document/text.hpp"
-#include "app/io/character/gltf_accessor.hpp"
 #include "app/io/character/gltf_bytes.hpp"
 
 namespace tendril::app {

@@ -1,7 +1,9 @@
-// The meshes of a glTF file, bound to the skeleton's nodes.
+// The meshes of a glTF file: as a skin, bound to the skeleton's nodes, and as plain triangles.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -22,5 +24,15 @@ struct GltfNodes {
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes,
                const std::vector<humanoid::Placement>& local, DroppedKeys& dropped,
                std::vector<std::string>& notes);
+
+/// All triangles of a glTF file's scene, for a ground to walk on.
+struct TriangleMesh {
+    std::vector<glm::dvec3> vertices;      ///< metres, Y up
+    std::vector<std::uint32_t> triangles;  ///< three indices into `vertices` each
+};
+
+/// The meshes as placed by their nodes, at rest. Throws std::runtime_error that begins with the file's name
+/// if the file cannot be read, or has no triangles or too many.
+TriangleMesh read_triangles(const std::filesystem::path& path);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-#include "app/io/character/gltf_triangles.hpp"
+#include "app/io/character/gltf_skin.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -6,8 +6,7 @@
 #include <string>
 
 #include "app/document/json.hpp"
-#include "app/io/character/gltf_accessor.hpp"
-#include "app/io/character/gltf_parse.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 
 namespace tendril::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_file.hpp"
-#include "app/io/character/gltf_parse.hpp"
 
 namespace tendril::app {
 namespace {

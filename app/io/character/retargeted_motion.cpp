@@ -7,7 +7,6 @@
 
 #include "app/document/names.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {

@@ -6,8 +6,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
-#include "app/io/character/figure_body.hpp"
-
 namespace tendril::app {
 namespace {
 

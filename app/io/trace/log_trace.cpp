@@ -78,6 +78,16 @@ std::string chain_of(const LogVector& first) {
     return first.kind.empty() ? first.label : first.label + ' ' + first.kind;
 }
 
+/// The meaning of a name in lower case: "ik_target", "pole vector".
+Meaning meaning_of(std::string_view name) {
+    const auto has = [&](auto... words) { return ((name.find(words) != name.npos) || ...); };
+    if (has("pole", "hint")) return Meaning::Pole;
+    if (has("target", "tgt", "goal", "aim", "cmd", "command", "desired", "setpoint", "moving", "toward"))
+        return Meaning::Target;
+    const bool tip = has("endeffector", "end_effector", "end effector", "end-effector");
+    return has("effector") && !tip ? Meaning::Target : Meaning::Joint;
+}
+
 /// What the words before vectors are, learned from how they repeat.
 class Schema {
   public:
@@ -518,15 +528,6 @@ class LogTrace final : public RawTrace {
 };
 
 }  // namespace
-
-Meaning meaning_of(std::string_view name) {
-    const auto has = [&](auto... words) { return ((name.find(words) != name.npos) || ...); };
-    if (has("pole", "hint")) return Meaning::Pole;
-    if (has("target", "tgt", "goal", "aim", "cmd", "command", "desired", "setpoint", "moving", "toward"))
-        return Meaning::Target;
-    const bool tip = has("endeffector", "end_effector", "end effector", "end-effector");
-    return has("effector") && !tip ? Meaning::Target : Meaning::Joint;
-}
 
 bool names_no_position(std::string_view text) {
     std::vector<LogToken> tokens;

@@ -94,8 +94,6 @@ inline bool is_digit(char c) {
 /// -nan(ind), null, inf, 1.#QNAN. Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
-/// The meaning of a name in lower case: "ik_target", "pole vector".
-Meaning meaning_of(std::string_view name);
 /// Seconds per unit of a column or word: 1e-3 for "time_ms" and "time [ms]"; 0 if it is not a time.
 double time_unit(std::string_view name);
 /// Whether a column's name says that the numbers are not a position: "elbow_rotation", "hand.rpy".

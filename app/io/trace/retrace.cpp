@@ -1,4 +1,4 @@
-#include "app/io/trace/retrace.hpp"
+#include "app/io/trace/trace.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <tendril/ik/incident.hpp>
 #include <utility>
 
-#include "app/document/units.hpp"
-#include "app/io/solver_text.hpp"
+#include "app/document/text.hpp"
+#include "app/io/solver_json.hpp"
 
 namespace tendril::app {
 namespace {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {

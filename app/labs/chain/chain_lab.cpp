@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"

@@ -1,23 +1,76 @@
-// The Chain lab's part of the document.
+// The Chain lab's part of the document, with its mode Curve; and the solvers that its runtime keeps.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
+#include <list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tendril/chain/chain.hpp>
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/labs/chain/curve.hpp"
+#include "app/document/json_place.hpp"
+#include "app/document/workspace.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
+#include "app/labs/kit/curve.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/selection.hpp"
 
+namespace tendril::ik {
+class Solver;
+}
+
 namespace tendril::app {
+
+struct ChainPart;
+
+// Mode Curve: the chain lies along a curve through control points (tendril/ik/curve.hpp). The last control
+// point is the mode's target: moving the target moves it.
+//
+// The given chain, with its own bone lengths and pose, is stored separately. Every placement starts from it,
+// so equal settings place it equally however often it was placed before. Edits and scene files use it; the
+// placed chain follows.
+
+inline constexpr std::size_t max_control_points = 4096;
+
+/// Has no control points, or at least two.
+struct CurveSettings : CurveShape {
+    bool operator==(const CurveSettings&) const = default;
+};
+
+/// State that only mode Curve keeps; blank in other modes.
+struct AlongCurve {
+    Chain given;
+    Selection selection;  ///< selected control points
+    ik::CurveMemory memory;
+    std::optional<ik::CurveReport> report;  ///< report of the last placement; none for fewer than two joints
+
+    bool operator==(const AlongCurve&) const = default;
+};
+
+/// The chain that is edited and saved: the given one in mode Curve.
+const Chain& own_chain(const ChainPart& part);
+/// Places the given chain along the curve; without control points, first draws the curve through the chain.
+/// Throws std::invalid_argument if the library refuses.
+void follow_curve(ChainPart& part);
+/// Call after an edit that changed the given chain in place of the placed one: places it again if needed and,
+/// in other modes, clears AlongCurve.
+void keep_on_curve(ChainPart& part, const ChainPart& before);
+
+/// Removes the selected control points. Throws Refused if fewer than two would be left.
+void remove_selected_points(ChainPart& part);
+
+/// Why the joint jumped to another crossing.
+std::string jump_cause(const ChainPart& before, const ChainPart& after);
+
+Json save_curve(const CurveSettings& settings);
+CurveSettings load_curve(const JsonPlace& place);
 
 inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< larger scenes would make too large a file
@@ -107,6 +160,34 @@ void keep_step(ChainPart& part, ChainRuntime& runtime);
 /// Deviation of bone `index` from its length, in metres; 0 for the head.
 float length_error(const Chain& chain, std::size_t index);
 
+/// The lab's solvers, reused between solves as their header asks: one for the chain, and one for each section
+/// that a drag solves separately. Also caches the result of the open study.
+class ChainRuntime final : public Runtime {
+  public:
+    ChainRuntime();
+    ~ChainRuntime() override;
+
+    /// A cached or new solver for these bones. The reference is valid until the next call. Throws
+    /// std::invalid_argument for invalid lengths.
+    ik::Solver& solver(std::span<const float> lengths, glm::vec3 rest_direction);
+    ik::Solver& solver(const Chain& chain);
+
+    /// The result of the open study; empty if none is open. Recomputed only when its inputs change.
+    Studied studied(const ChainPart& part);
+
+    /// Number of solvers created, for tests.
+    std::size_t made() const { return made_; }
+
+  private:
+    static constexpr std::size_t most =
+        4;  ///< a chain, the two sections that a drag splits it into, and a spare
+    struct Kept;
+    std::list<Kept> kept_;  ///< most recently used first
+    std::size_t made_ = 0;
+    std::shared_ptr<const ChainPart> studied_part_;  ///< the inputs of `studied_`
+    Studied studied_;
+};
+
 }  // namespace tendril::app
 
 /// The values that scenes have as they are; the others have JSON of their own.
@@ -114,3 +195,7 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ChainPart>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachResult>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::CurveSettings>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::CurveSettings>();

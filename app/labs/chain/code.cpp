@@ -1,4 +1,3 @@
-#include "app/labs/chain/code.hpp"
 
 #include <algorithm>
 #include <string_view>

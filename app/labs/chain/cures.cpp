@@ -1,4 +1,4 @@
-#include "app/labs/chain/cures.hpp"
+#include "app/labs/chain/panel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/io/solver_text.hpp"
+#include "app/io/solver_json.hpp"
 
 namespace tendril::app {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"
@@ -31,6 +31,68 @@ float joint_pixels(const ChainPart& part, const Camera& camera, float scale) {
     const float mean_length = part.chain.reach() / static_cast<float>(part.chain.size() - 1);
     const float metres_per_pixel = camera.metres_per_pixel(camera.pose().target);
     return std::clamp(0.3f * mean_length / metres_per_pixel, smallest, largest);
+}
+
+/// Draws the pole target, and the line that it turns the chain about.
+void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
+    if (!part.reach.options.pole || !view.handles) return;
+    const glm::vec3 at = *part.reach.options.pole;
+    const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
+    if (!part.chain.empty()) {
+        const glm::vec3 root = part.chain.position(0), along = part.target - root;
+        const float square = glm::dot(along, along);
+        const float share =
+            square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
+        list.line(root, part.target, view.scale, faded(view.palette, pole_colour(view.palette), 0.35f));
+        list.line(at, root + along * share, 1.5f * view.scale,
+                  faded(view.palette, pole_colour(view.palette), 0.5f));
+    }
+    Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
+                               glm::vec4(pole_colour(view.palette), 1.0f));
+    ball.shadow = true;
+    ball.layer = Layer::Overlay;
+    ball.pick = pole_pick;
+    ball.rank = 2;
+    list.labels.push_back({.at = at,
+                           .clearance = 12.0f * view.scale,
+                           .text = "pole",
+                           .colour = view.palette.text_dim,
+                           .rank = 1});
+}
+
+/// The silhouette of a sphere: smaller than its great circle, and nearer to the eye.
+void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
+    const Camera& camera = view.camera;
+    glm::vec3 middle = centre;
+    float seen = radius;
+    glm::vec3 towards = -camera.forward();
+    if (!camera.pose().orthographic) {
+        const float distance = glm::distance(camera.eye(), centre);
+        if (!(distance > 1.001f * radius)) return;  // no silhouette from inside
+        towards = (camera.eye() - centre) / distance;
+        const float share = radius / distance;
+        middle = centre + towards * (radius * share);
+        seen = radius * std::sqrt(1.0f - share * share);
+    }
+    const glm::vec3 across = glm::normalize(glm::cross(camera.up(), towards));
+    draw_circle(list, middle, seen, across, glm::cross(towards, across), 1.5f * view.scale,
+                faded(view.palette, view.palette.ghost, 0.38f));
+}
+
+/// Draws the sphere within the chain's reach as faint outlines: its silhouette, and its intersection with the
+/// ground.
+void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list) {
+    if (shown.part.chain.size() < 2) return;
+    const glm::vec3 root = shown.part.chain.position(0);
+    const float reach = shown.part.chain.reach();
+    if (!(reach > 0.0f)) return;
+    if (shown.part.reach.plane) return;  // draw_plane has the circle
+    outline(view, list, root, reach);
+    const float high = std::abs(root.y);
+    if (high >= reach) return;
+    const glm::vec3 foot(root.x, 0.0f, root.z);
+    draw_circle(list, foot, std::sqrt(reach * reach - high * high), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
+                view.scale, faded(view.palette, view.palette.ghost, 0.3f));
 }
 
 class Drawing {
@@ -325,29 +387,6 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
     draw_turn(view, was[joint].position, is[joint].position, is[about].position, list);
 }
 
-namespace {
-
-/// The silhouette of a sphere: smaller than its great circle, and nearer to the eye.
-void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
-    const Camera& camera = view.camera;
-    glm::vec3 middle = centre;
-    float seen = radius;
-    glm::vec3 towards = -camera.forward();
-    if (!camera.pose().orthographic) {
-        const float distance = glm::distance(camera.eye(), centre);
-        if (!(distance > 1.001f * radius)) return;  // no silhouette from inside
-        towards = (camera.eye() - centre) / distance;
-        const float share = radius / distance;
-        middle = centre + towards * (radius * share);
-        seen = radius * std::sqrt(1.0f - share * share);
-    }
-    const glm::vec3 across = glm::normalize(glm::cross(camera.up(), towards));
-    draw_circle(list, middle, seen, across, glm::cross(towards, across), 1.5f * view.scale,
-                faded(view.palette, view.palette.ghost, 0.38f));
-}
-
-}  // namespace
-
 void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up, float pixels,
                  glm::vec4 colour) {
     constexpr int sides = 128;
@@ -367,46 +406,6 @@ LabSetting reach_sphere() {
             .argument = "show",
             .help = "Shows the sphere that the chain can reach, in mode reach",
             .choices = {{"off", "hidden"}, {"on", "shown"}}};
-}
-
-void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list) {
-    if (shown.part.chain.size() < 2) return;
-    const glm::vec3 root = shown.part.chain.position(0);
-    const float reach = shown.part.chain.reach();
-    if (!(reach > 0.0f)) return;
-    if (shown.part.reach.plane) return;  // draw_plane has the circle
-    outline(view, list, root, reach);
-    const float high = std::abs(root.y);
-    if (high >= reach) return;
-    const glm::vec3 foot(root.x, 0.0f, root.z);
-    draw_circle(list, foot, std::sqrt(reach * reach - high * high), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
-                view.scale, faded(view.palette, view.palette.ghost, 0.3f));
-}
-
-void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
-    if (!part.reach.options.pole || !view.handles) return;
-    const glm::vec3 at = *part.reach.options.pole;
-    const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
-    if (!part.chain.empty()) {
-        const glm::vec3 root = part.chain.position(0), along = part.target - root;
-        const float square = glm::dot(along, along);
-        const float share =
-            square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
-        list.line(root, part.target, view.scale, faded(view.palette, pole_colour(view.palette), 0.35f));
-        list.line(at, root + along * share, 1.5f * view.scale,
-                  faded(view.palette, pole_colour(view.palette), 0.5f));
-    }
-    Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
-                               glm::vec4(pole_colour(view.palette), 1.0f));
-    ball.shadow = true;
-    ball.layer = Layer::Overlay;
-    ball.pick = pole_pick;
-    ball.rank = 2;
-    list.labels.push_back({.at = at,
-                           .clearance = 12.0f * view.scale,
-                           .text = "pole",
-                           .colour = view.palette.text_dim,
-                           .rank = 1});
 }
 
 namespace {

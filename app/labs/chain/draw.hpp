@@ -67,11 +67,6 @@ void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 acros
 
 /// The joint limits as the solver uses them, and the present joint angles.
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
-/// Draws the pole target, and the line that it turns the chain about.
-void draw_pole(const View& view, const ChainPart& part, DrawList& list);
-/// Draws the sphere within the chain's reach as faint outlines: its silhouette, and its intersection with the
-/// ground.
-void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list);
 /// Draws the microscope's step over the poses at the ends of earlier iterations.
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
 /// Draws the poses of a race at its iteration: side by side only this pane's, otherwise all, spread apart

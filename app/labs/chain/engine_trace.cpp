@@ -15,10 +15,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/io/solver_json.hpp"
-#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

@@ -1,5 +1,5 @@
 // The mouse in the Chain lab: drags, clicks, selection boxes, and the gizmo of the selection.
-#include "app/labs/chain/mouse.hpp"
+#include "app/labs/chain/commands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/arguments.hpp"

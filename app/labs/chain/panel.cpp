@@ -12,17 +12,14 @@
 #include <tendril/ik/options.hpp>
 
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/chain/cures.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"
-#include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/timeline.hpp"
 #include "app/widgets/tooltip.hpp"
 

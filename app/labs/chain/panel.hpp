@@ -1,10 +1,15 @@
-// Rows of the Chain lab's panel and inspector.
+// Rows of the Chain lab's panel and inspector, and the remedies that they offer.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "app/document/incident.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
-#include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 
 namespace tendril::app {
@@ -50,5 +55,20 @@ Verdict curve_verdict(const ChainPart& part);
 std::string distance_text(float metres);
 /// The meaning of the last solve's status, with what may help, in sentences.
 std::string status_text(const ChainPart& part);
+
+// Remedies for a chain that stalls or flips, as commands for a button.
+
+/// The initial pole target: beside the middle of the line from head to tail, on the side to which the chain
+/// bends, so that adding it rotates nothing. Above a straight chain.
+glm::vec3 first_pole(const ChainPart& part);
+
+/// Whether all joints lie on the line from the root to the target.
+bool in_line_with_target(const ChainPart& part);
+
+/// The remedy for a solve that ended short of a target within reach, if there is one.
+std::optional<Cure> reach_cure(const ChainPart& part);
+
+/// The remedy for a flip between two ticks, if there is one.
+std::optional<Cure> flip_cure(FlipCure cure, const ChainPart& before, const ChainPart& after);
 
 }  // namespace tendril::app

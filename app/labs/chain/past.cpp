@@ -11,13 +11,12 @@
 #include <numeric>
 #include <utility>
 
+#include "app/document/argument.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/document/picture_arguments.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/flips.hpp"

@@ -1,17 +1,24 @@
-#include "app/labs/chain/race.hpp"
+#include "app/labs/chain/study.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <string>
 #include <string_view>
 #include <tendril/ik/observer.hpp>
 #include <tendril/ik/solver.hpp>
+#include <utility>
 
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
-#include "app/io/solver_text.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/io/solver_json.hpp"
+#include "app/labs/chain/chain_part.hpp"
+#include "app/labs/chain/commands.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/kit/film.hpp"
+#include "app/labs/kit/race.hpp"
 
 namespace tendril::app {
 
@@ -103,6 +110,78 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
     return racer;
 }
 
+/// One row for each iteration of each solver: solver, iteration, tip_to_target_m, root_to_target_m,
+/// microseconds; the last row of a solver adds status, ran (see ran_text) and restored_m: of the best pose if
+/// that was restored.
+std::string race_csv(const Race& race) {
+    const auto metres = [](float value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+        return std::string(text);
+    };
+    std::string csv =
+        "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m\n";
+    for (const Racer& racer : race.racers) {
+        const int last = racer.iterations();
+        for (int i = 0; i <= last; ++i) {
+            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
+                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' + metres(race.root_to_target) +
+                   ',' + fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
+            csv += i < last ? ",,"
+                            : std::string(ik::name(racer.report.status)) + ",\"" +
+                                  ran_text(racer.method, racer.report) + "\"," +
+                                  (racer.restored ? metres(racer.report.residual) : "");
+            csv += '\n';
+        }
+    }
+    return csv;
+}
+
+std::string open_race_csv(const Workspace& workspace) {
+    const ShownChain shown = shown_chain(workspace);
+    check_race(shown.part);
+    return race_csv(*shown.race);
+}
+
+constexpr double frames_per_second = 30.0;
+constexpr int end_frames = 30;  ///< the end is held for a second, so that a film takes 4 to 12 s
+constexpr double max_frames = 18'000.0;
+
+/// Shows a frame of the film in a copy of the workspace.
+struct RaceFrames {
+    std::size_t last = 0;  ///< iteration
+    double pace = 4.0;     ///< iterations per second
+    std::size_t shown = Study::race_end;
+
+    bool operator()(Workspace& workspace, int frame) {
+        const double iteration = std::floor(frame * pace / frames_per_second);
+        const std::size_t now = std::min(last, static_cast<std::size_t>(iteration));
+        workspace.document.edit<ChainPart>(chain_lab).study.go_to(now, last);
+        return std::exchange(shown, now) != now;
+    }
+};
+
+void record_race(Workspace& workspace, const Arguments& given) {
+    const ShownChain chain = shown_chain(workspace);
+    check_race(chain.part);
+    if (workspace.lab != chain_lab) throw Refused("the race is not in view: open the lab chain");
+    const std::size_t last = chain.last();
+    const double pace = given.has("pace") ? given.real("pace") : static_cast<double>(race_pace(last));
+    const double frames = std::ceil(static_cast<double>(last) * frames_per_second / pace) + 1.0 + end_frames;
+    if (frames > max_frames)
+        throw Refused("pace must be at least " +
+                      fixed_text(0.01 * std::ceil(100.0 * static_cast<double>(last) * frames_per_second /
+                                                  (max_frames - 1.0 - end_frames)),
+                                 2) +
+                      " for a race of " + std::to_string(last) +
+                      " iterations: a film lasts up to 10 minutes");
+    VideoRequest wanted = film_request(workspace, given, "race");
+    wanted.command = "race.record";
+    wanted.shown_frames = static_cast<int>(frames);
+    wanted.show = RaceFrames{last, pace};
+    workspace.ui.video = std::move(wanted);
+}
+
 }  // namespace
 
 Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
@@ -166,28 +245,21 @@ std::string end_text(const Racer& racer) {
     return racer.restored ? text : text + " from the target";
 }
 
-std::string race_csv(const Race& race) {
-    const auto metres = [](float value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
-        return std::string(text);
-    };
-    std::string csv =
-        "solver,iteration,tip_to_target_m,root_to_target_m,microseconds,status,ran,restored_m\n";
-    for (const Racer& racer : race.racers) {
-        const int last = racer.iterations();
-        for (int i = 0; i <= last; ++i) {
-            csv += '"' + std::string(solver_title(racer.method)) + "\"," + std::to_string(i) + ',' +
-                   metres(racer.residuals[static_cast<std::size_t>(i)]) + ',' + metres(race.root_to_target) +
-                   ',' + fixed_text(racer.microseconds * i / std::max(last, 1), 3) + ',';
-            csv += i < last ? ",,"
-                            : std::string(ik::name(racer.report.status)) + ",\"" +
-                                  ran_text(racer.method, racer.report) + "\"," +
-                                  (racer.restored ? metres(racer.report.residual) : "");
-            csv += '\n';
-        }
-    }
-    return csv;
+// Commands that write the open race to a file: its numbers, or a video.
+
+void add_race_file_commands(CommandTable& table) {
+    add_race_csv_commands(table, {.race = "race",
+                                  .title = "the race as CSV",
+                                  .holds = "tip to target in metres, for every solver and iteration,",
+                                  .text = open_race_csv});
+    table.add(
+        "race.record", "Record the race",
+        film_arguments(
+            {number_argument("pace", "iterations per second; default: so many that the film lasts 4 to 12 s",
+                             shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
+            true),
+        "Writes a video of the race from its start to its end, with names, iterations and errors",
+        Effect::Look, record_race);
 }
 
 }  // namespace tendril::app

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "app/io/solver_json.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 
 namespace tendril::app {
 

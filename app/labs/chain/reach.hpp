@@ -20,7 +20,7 @@
 
 #include "app/document/json.hpp"
 #include "app/fields/fields.hpp"
-#include "app/io/solver_text.hpp"
+#include "app/io/solver_json.hpp"
 #include "app/labs/kit/library_json.hpp"
 
 namespace tendril::app {

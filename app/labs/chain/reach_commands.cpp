@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/field_in.hpp"
+#include "app/fields/fields.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/commands.hpp"
 

@@ -11,7 +11,6 @@
 #include "app/document/json_place.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 template <>

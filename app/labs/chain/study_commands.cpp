@@ -1,4 +1,5 @@
-// Commands that analyse a solve: microscope.* and race.*.
+// Analyses of a solve: their commands, microscope.* and race.*, and their rows in the panel.
+#include <imgui.h>
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -6,10 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/commands.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
+#include "app/labs/kit/race.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/plot.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 
@@ -179,6 +187,64 @@ void add_microscope_commands(CommandTable& table) {
                             close<check_microscope>, Effect::Look));
 }
 
+constexpr float plot_lines = 13.0f;
+
+std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
+    std::vector<glm::vec2> points;
+    for (const float residual : residuals) points.push_back({static_cast<float>(points.size()), residual});
+    return points;
+}
+
+/// The y axis begins two decades below the tolerance.
+PlotAxes residual_axes(float tolerance, int iteration) {
+    return {.x = "iterations",
+            .y = "tip to target",
+            .y_unit = "m",
+            .min_y = std::max(1e-7f, 1e-2f * tolerance),
+            .level = tolerance,
+            .note = "\ntolerance " + short_text(static_cast<double>(tolerance), "m") + ", dashed",
+            .at_x = static_cast<float>(iteration),
+            .whole_x = true};
+}
+
+void start_buttons(const char* command, Emit& emit) {
+    if (row_button("Start here", 2, true, "Each solve starts from the chain's current pose"))
+        emit(command, {{"start", "here"}});
+    if (row_button("Start straight", 2, true, "Each solve starts with the chain in a straight line"))
+        emit(command, {{"start", "straight"}});
+}
+
+/// Key of the panel's state (not the document's): whether the x axis is time.
+constexpr const char* against_time = "against time";
+
+void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
+    const auto index = static_cast<std::size_t>(method);
+    const bool accepted = takes(method, shown.part.chain);
+    bool on = accepted && shown.part.study.racers[index];
+    colour_mark(solver_colour(palette, method));
+    ImGui::BeginDisabled(!accepted);
+    if (ImGui::Checkbox(solver_title(method), &on))
+        emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
+    ImGui::EndDisabled();
+    if (!accepted) {
+        explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
+        return small_right(needs_two_bones);
+    }
+    const auto& racers = shown.race->racers;
+    const auto racer = std::ranges::find(racers, method, &Racer::method);
+    const bool raced = racer != racers.end();
+    explain((std::string("Whether it runs in the race. ") + solver_help(method) +
+             (raced ? " It ran as " + ran_text(method, racer->report) + ". " + end_text(*racer) + "." : ""))
+                .c_str());
+    if (!raced) return;
+    ImGui::SameLine();
+    const RacerAt at = racer_at(*racer, shown.step());
+    text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
+    if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
+    // One line in every iteration and for every target, so that no row moves.
+    small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
+}
+
 }  // namespace
 
 void add_study_commands(CommandTable& table) {
@@ -213,6 +279,127 @@ void add_study_commands(CommandTable& table) {
                             "Closes the race; the chain stays as its own solver left it", close<check_race>,
                             Effect::Look));
     add_race_file_commands(table);
+}
+
+void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
+    const Race& race = *shown.race;
+    std::vector<Curve> curves;
+    for (const Racer& racer : race.racers) {
+        Curve curve{solver_title(racer.method), solver_colour(palette, racer.method),
+                    by_iteration(racer.residuals)};
+        const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
+        if (time)
+            for (glm::vec2& p : curve.points) p.x *= 1e-6f * static_cast<float>(racer.microseconds) / last;
+        curves.push_back(std::move(curve));
+    }
+    PlotAxes axes = residual_axes(race.tolerance, time ? -1 : static_cast<int>(shown.step()));
+    axes.whole_x = !time;
+    if (time) {
+        axes.x = "time";
+        axes.x_unit = "s";
+        axes.min_x = 0.0f;
+    }
+    plot("race plot", curves, axes, plot_lines);
+}
+
+void study_rows(const ChainPart& part, Emit& emit) {
+    const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
+    const char* why_not =
+        part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 joints";
+    static_assert(max_studied_segments == 512);
+    const bool magnified = part.study.kind == Study::Kind::Microscope;
+    const bool racing = part.study.kind == Study::Kind::Race;
+    if (row_button(magnified ? "Close" : "Microscope", 2, solvable,
+                   magnified   ? "Closes the microscope"
+                   : !solvable ? why_not
+                               : "Every step of one solve, and the pose after it"))
+        emit(magnified ? "microscope.close" : "microscope.open");
+    if (row_button(racing ? "Close" : "Race", 2, solvable,
+                   racing      ? "Closes the race"
+                   : !solvable ? why_not
+                               : "Several solvers, from the same start"))
+        emit(racing ? "race.close" : "race.open");
+    end_row();
+}
+
+void export_rows(Emit& emit) {
+    if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program that uses the library"))
+        emit("chain.copy", {{"as", "cpp"}});
+    if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
+    end_row();
+    if (row_button("Save a trace", 1, true,
+                   "Writes the last ten seconds beside the scene, for tendril trace and other programs"))
+        emit("chain.save_trace");
+    end_row();
+    picture_rows(emit);
+}
+
+void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
+    const PanelSection ids("Microscope");
+    const ChainPart& part = shown.part;
+    const Trace& trace = *shown.trace;
+    const std::size_t step = part.study.step;
+    if (row_button("|<", 4, step > 0, "One iteration back")) emit("study.step", {{"iterations", -1}});
+    if (row_button("<", 4, step > 0, "One step back")) emit("study.step", {{"by", -1}});
+    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("study.step", {{"by", 1}});
+    if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
+        emit("study.step", {{"iterations", 1}});
+    end_row();
+    // Below the buttons, because these texts vary in length from step to step.
+    reading("step", "%zu of %zu", step, trace.frames());
+    reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
+    note(ran_text(trace.method, trace.report) + ".");
+    const float from = ImGui::GetCursorPosY();
+    note(describe_frame(trace, step));
+    // Two lines for a shorter text too, so that the plot stays put from step to step.
+    const float below = from + 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), below));
+    if (part.motion.path != Motion::Path::Still)
+        note("The moving target waits while the microscope is open.");
+    if (trace.cut) note("The solve took more steps than were recorded.");
+    float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
+    if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
+        emit.continuously("microscope.play", {{"pace", pace}});
+    explain("How fast the steps play.");
+    start_buttons("microscope.open", emit);
+    end_row();
+    const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
+    const float tolerance = reach_tolerance(part.reach, part.chain.reach());
+    plot("error", {&curve, 1}, residual_axes(tolerance, trace.iteration(step)), plot_lines);
+}
+
+void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
+    const PanelSection ids("Race");
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID kept_as = ImGui::GetID(against_time);
+    bool time = kept.GetBool(kept_as);
+    small_right(time ? "time" : "iterations");
+    for (const ik::Method method : ik::all_methods) racer_row(shown, method, time, palette, emit);
+    race_plot(shown, time, palette);
+    if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
+    if (ImGui::IsItemHovered()) tooltip("Measured on this machine, the fastest of several runs");
+    bool apart = shown.part.study.side_by_side;
+    if (ImGui::Checkbox("Side by side", &apart)) {
+        emit("race.side_by_side", {{"on", apart}});
+        emit("camera.frame", {{"what", "all"}});
+    }
+    explain("Shows each solver's chain in its own view, all with the same camera, instead of all in one.");
+    start_buttons("race.open", emit);
+    end_row();
+    if (row_button("Copy numbers as CSV", 1, true,
+                   "Every solver's distance from the target, time and status at each iteration"))
+        emit("race.copy");
+    const std::string film = "Writes the race from its start to its end as an animated PNG of " +
+                             fixed_text(race_film_seconds(shown.last()), 0) +
+                             " s beside the scene, with names, iterations, errors and the plot. The command "
+                             "race.record also writes GIF and MP4, at "
+                             "any size and pace.";
+    if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
+    if (row_button(
+            "Save a picture", 2, true,
+            "Saves or copies the scene, as Ctrl+P does; with the plot by iteration unless side by side"))
+        emit("view.picture_dialog");
+    end_row();
 }
 
 }  // namespace tendril::app

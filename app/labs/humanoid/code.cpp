@@ -28,7 +28,7 @@ std::string transform_text(const rig::Transform& transform) {
     return text + '}';
 }
 
-/// hills() of ground.hpp.
+/// hills() of ik_settings.hpp.
 constexpr const char* hills_text =
     R"(    humanoid::HeightField field{.x = -20.0, .z = -20.0, .cell = 0.25, .columns = 161, .heights = {}};
     for (int row = 0; row < 161; ++row)

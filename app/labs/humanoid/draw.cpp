@@ -13,7 +13,7 @@
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/ik/ground.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril::app {
 namespace {

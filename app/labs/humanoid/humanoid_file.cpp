@@ -7,7 +7,6 @@
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
-#include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 

@@ -5,7 +5,7 @@
 #include <tendril/rope/workspace.hpp>
 
 #include "app/document/runtime.hpp"
-#include "app/io/character/twist_spread.hpp"
+#include "app/io/character/skin.hpp"
 #include "app/labs/humanoid/character/character_commands.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
@@ -33,12 +33,12 @@ class HumanoidRuntime final : public Runtime {
 
     /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::optional<humanoid::Bone> bone;  ///< the row that waits for a node to be picked
-        bool bones_first = false;            ///< shows the bone map before the other sections
-        SharedCharacter bones_of{};          ///< the character for which that was decided
-        int attach_kind = 0;                 ///< kind of attachment that Add makes
-        std::string attach_to = "Hips";      ///< bone or node to attach it to
-        bool past = false;                   ///< the strip shows the last ten seconds instead of the clip
+        std::optional<humanoid::Bone> bone;   ///< the row that waits for a node to be picked
+        bool bones_first = false;             ///< shows the bone map before the other sections
+        SharedCharacter bones_of{};           ///< the character for which that was decided
+        int attach_kind = 0;                  ///< kind of attachment that Add makes
+        std::string attach_to = "Hips";       ///< bone or node to attach it to
+        bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
         std::string export_to{}, map_file{};  ///< paths typed by the user
     } panel;
 

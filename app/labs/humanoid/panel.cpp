@@ -5,22 +5,18 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/row_search.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -223,8 +219,25 @@ void position_rows(const glm::dvec3& at) {
     reading("z", "%.4f m", at.z);
 }
 
-}  // namespace
+/// The distances from effectors to their targets.
+void target_inspector(const HumanoidPanel& panel) {
+    if (!panel.part.ik.has_targets()) return;
+    const PanelSection ids("Targets");
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    if (!shown.refused.empty()) return note(shown.refused);
+    for (const humanoid::Effector effector : all_effectors) {
+        if (!panel.part.ik.target(effector)) continue;
+        reading(title(effector).c_str(), "%s", length_text(shown.residual(effector).value_or(0.0)).c_str());
+        explain("How far the effector is from its target.");
+    }
+    if (!shown.body) return;
+    const std::string limited =
+        name_list_text(bone_names([&](std::size_t i) { return shown.body->at_limit[i]; }));
+    kept_note("limited", limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".",
+              3);
+}
 
+/// The selected nodes.
 void node_inspector(const HumanoidPanel& panel) {
     const PanelSection ids("Selection");
     const HumanoidPart& part = panel.part;
@@ -251,23 +264,7 @@ void node_inspector(const HumanoidPanel& panel) {
     spring_inspector(panel);
 }
 
-void target_inspector(const HumanoidPanel& panel) {
-    if (!panel.part.ik.has_targets()) return;
-    const PanelSection ids("Targets");
-    const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    if (!shown.refused.empty()) return note(shown.refused);
-    for (const humanoid::Effector effector : all_effectors) {
-        if (!panel.part.ik.target(effector)) continue;
-        reading(title(effector).c_str(), "%s", length_text(shown.residual(effector).value_or(0.0)).c_str());
-        explain("How far the effector is from its target.");
-    }
-    if (!shown.body) return;
-    const std::string limited =
-        name_list_text(bone_names([&](std::size_t i) { return shown.body->at_limit[i]; }));
-    kept_note("limited", limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".",
-              3);
-}
-
+/// Statistics of the character.
 void character_inspector(const HumanoidPanel& panel) {
     const PanelSection ids("Character");
     const LoadedCharacter& loaded = *panel.part.loaded;
@@ -285,6 +282,8 @@ void character_inspector(const HumanoidPanel& panel) {
             reading("round", "%lld", static_cast<long long>(panel.part.playback.rounds + 1));
     }
 }
+
+}  // namespace
 
 void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);

@@ -67,18 +67,12 @@ void export_rows(const HumanoidPanel& panel);
 void map_rows(const HumanoidPanel& panel);
 
 // Right panel.
-/// The distances from effectors to their targets.
-void target_inspector(const HumanoidPanel& panel);
 // Fields set all selected items; readings are those of the active one.
-/// The selected nodes.
-void node_inspector(const HumanoidPanel& panel);
 /// The springs on the selected nodes, or offers to add some.
 void spring_inspector(const HumanoidPanel& panel);
 /// The curve through the active node, or offers to add one.
 void curve_inspector(const HumanoidPanel& panel);
 /// The rotations and ranges of the selected joints.
 void limit_inspector(const HumanoidPanel& panel);
-/// Statistics of the character.
-void character_inspector(const HumanoidPanel& panel);
 
 }  // namespace tendril::app

@@ -3,8 +3,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
-#include "app/labs/humanoid/clip/playback.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"

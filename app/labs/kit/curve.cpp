@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/field_in.hpp"
+#include "app/fields/fields.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveShape>() noexcept {

@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
+#include "app/document/argument.hpp"
 #include "app/document/atomic_file.hpp"
-#include "app/document/picture_arguments.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/io/video_file.hpp"
 
 namespace tendril::app {

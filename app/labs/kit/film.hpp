@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/document/argument.hpp"
-#include "app/document/video_request.hpp"
 #include "app/document/workspace.hpp"
 #include "app/io/video_file.hpp"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/document/drawn_sections.hpp"
+#include "app/document/runtime.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/row_search.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 

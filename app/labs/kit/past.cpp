@@ -10,15 +10,12 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -48,12 +45,6 @@ LabSetting Past::ghosts() const {
 std::optional<PastCurve> Past::curve(const Workspace& workspace) const {
     const std::size_t chosen = plot().chosen(workspace.settings);
     return chosen > 0 ? std::optional(probes[chosen - 1].curve(workspace)) : std::nullopt;
-}
-
-PastTicks past_ticks(const Workspace& workspace) {
-    const Rewind& past = workspace.rewind;
-    const std::uint64_t now = workspace.moment;
-    return past.empty() ? PastTicks{now, now} : PastTicks{past.oldest(), std::max(past.newest(), now)};
 }
 
 namespace {
@@ -100,6 +91,12 @@ glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
             break;
     }
     return palette.text_dim;
+}
+
+PastTicks past_ticks(const Workspace& workspace) {
+    const Rewind& past = workspace.rewind;
+    const std::uint64_t now = workspace.moment;
+    return past.empty() ? PastTicks{now, now} : PastTicks{past.oldest(), std::max(past.newest(), now)};
 }
 
 /// Goes to the moment at an index. Call it after the item that the user drags.

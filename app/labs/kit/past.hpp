@@ -88,7 +88,6 @@ struct PastTicks {
     /// The index of a tick, counted from `first`.
     int place(std::uint64_t tick) const { return static_cast<int>(std::clamp(tick, first, last) - first); }
 };
-PastTicks past_ticks(const Workspace& workspace);
 /// The strip always has this length, however little is recorded.
 inline constexpr int past_strip_ticks = static_cast<int>(Rewind::max_ticks) + 1;
 /// At an earlier moment: "An edit here discards the 2.3 s after it. Undo brings them back."; else empty.

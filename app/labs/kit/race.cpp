@@ -7,7 +7,7 @@
 #include "app/document/atomic_file.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/widgets/fonts.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

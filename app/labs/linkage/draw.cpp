@@ -9,10 +9,14 @@
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
-#include "app/labs/linkage/past.hpp"
 
 namespace tendril::app {
 namespace {
+
+/// The colour of a speed: `share` is 0 (slow) to 1 (fast).
+glm::vec3 speed_colour(const Palette& palette, double share) {
+    return glm::mix(palette.head, palette.target, static_cast<float>(std::clamp(share, 0.0, 1.0)));
+}
 
 class LinkageDrawing {
   public:
@@ -266,10 +270,6 @@ PathSpeed path_speed(const std::vector<PathPoint>& path) {
     if (!(seconds > 0.0)) return {};
     const double most = 3.0 * length / seconds;
     return {std::min(highest, most), highest > most};
-}
-
-glm::vec3 speed_colour(const Palette& palette, double share) {
-    return glm::mix(palette.head, palette.target, static_cast<float>(std::clamp(share, 0.0, 1.0)));
 }
 
 glm::vec3 in_scene(const LinkagePart& part, const glm::dvec3& at) {

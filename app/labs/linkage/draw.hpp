@@ -36,7 +36,5 @@ struct PathSpeed {
     bool exceeded = false;  ///< it is faster somewhere
 };
 PathSpeed path_speed(const std::vector<PathPoint>& path);
-/// The colour of a speed: `share` is 0 (slow) to 1 (fast).
-glm::vec3 speed_colour(const Palette& palette, double share);
 
 }  // namespace tendril::app

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {

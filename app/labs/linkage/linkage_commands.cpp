@@ -8,10 +8,10 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/lab.hpp"
 #include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
@@ -238,6 +238,20 @@ void begin_past(Workspace& workspace, std::shared_ptr<const Part> before) {
     workspace.ui.incident.reset();
 }
 
+/// A command that changes the part, given the lab's solver.
+Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
+                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
+                        Effect effect = Effect::Edit) {
+    return part_command<LinkagePart>(linkage_lab, name, title, std::move(arguments), help, effect,
+                                     [change, effect](Workspace& workspace, LinkagePart& part,
+                                                      const LinkagePart&, const Arguments& given) {
+                                         // Any other edit ends a drag.
+                                         if (effect == Effect::Edit) part.drag.reset();
+                                         change(part, given,
+                                                workspace.runtimes.of<LinkageRuntime>(linkage_lab));
+                                     });
+}
+
 /// A command that opens another linkage, brings it into view, and restarts the last ten seconds.
 Command opening_command(const char* name, const char* title, std::vector<Argument> arguments,
                         const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&)) {
@@ -270,19 +284,6 @@ std::vector<Argument> length_arguments() {
 }
 
 }  // namespace
-
-Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
-                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
-                        Effect effect) {
-    return part_command<LinkagePart>(linkage_lab, name, title, std::move(arguments), help, effect,
-                                     [change, effect](Workspace& workspace, LinkagePart& part,
-                                                      const LinkagePart&, const Arguments& given) {
-                                         // Any other edit ends a drag.
-                                         if (effect == Effect::Edit) part.drag.reset();
-                                         change(part, given,
-                                                workspace.runtimes.of<LinkageRuntime>(linkage_lab));
-                                     });
-}
 
 Argument linkage_point_argument(const char* name, bool required, const char* help) {
     return offering(text_argument(name, required, help), [](const Workspace& workspace) {
@@ -420,7 +421,7 @@ void add_linkage_commands(CommandTable& table) {
                .help = "Copies the linkage to the clipboard as a C++ program that uses the library",
                .effect = Effect::Look,
                .apply = [](Workspace& workspace, const Arguments&) {
-                   workspace.ui.copied = linkage_code(linkage_part(workspace));
+                   workspace.ui.copied = LinkageLab().code(workspace);
                    workspace.toast("The linkage is on the clipboard as C++");
                }});
 }

@@ -17,10 +17,6 @@ void add_linkage_commands(CommandTable& table);
 /// Commands for drawing a linkage by hand: joints, bars, pins.
 void add_sketch_commands(CommandTable& table);
 
-/// Export: a complete C++ program that builds the linkage with the library, runs its motors for a second and
-/// prints its points.
-std::string linkage_code(const LinkagePart& part);
-
 inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
     return std::ranges::count(bar.points, point) > 0;
 }
@@ -37,8 +33,6 @@ bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
 /// Grows or shrinks a bar of two joints; the others keep their lengths, motors and held joints stay if they
 /// can. Throws Refused with the length that it gets to.
 void set_bar_length(ik::LinkageSketch& sketch, std::size_t bar, double metres);
-/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
-bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Reads lengths by name from an object; omitted ones stay the same. Throws std::runtime_error with the JSON
 /// path of the error.
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism);
@@ -53,10 +47,6 @@ bool goes_on(const LinkagePart& part);
 /// Whether the motor cannot move on: it is at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 
-/// A command that changes the part, given the lab's solver.
-Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
-                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
-                        Effect effect = Effect::Edit);
 /// An argument that names a point.
 Argument linkage_point_argument(const char* name, bool required, const char* help);
 /// Throws Refused unless the joint is a hinge or slider.

@@ -1,4 +1,4 @@
-// The Linkage lab's part of the document: a linkage, its pose, its drivers and its targets.
+// The Linkage lab's part of the document: a linkage, its pose, its drivers and its targets; and the presets.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,49 @@
 #include <string_view>
 #include <tendril/ik/linkage.hpp>
 #include <tendril/ik/linkage_sketch.hpp>
+#include <tendril/ik/mechanisms.hpp>
+#include <variant>
 #include <vector>
 
 #include "app/document/document.hpp"
 #include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/linkage/mechanism.hpp"
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
+
+// The Linkage lab's presets: the library's mechanisms, with their lengths as tables of fields.
+
+/// Twelve of Jansen's legs on one crank, at 1/100 scale: six pairs, a sixth of a turn apart.
+struct JansenWalker : ik::Jansen {
+    JansenWalker();
+};
+
+/// The lengths of a mechanism; std::monostate: drawn by hand.
+using Mechanism = std::variant<std::monostate, ik::FourBar, ik::SliderCrank, ik::Peaucellier, ik::Pantograph,
+                               ik::ScissorLift, ik::Jansen, JansenWalker, ik::Delta, ik::Stewart>;
+
+struct MechanismKind {
+    const char* name;
+    const char* title;
+    const char* help;
+    Mechanism (*blank)();
+    std::span<const Field> fields;
+    std::vector<FieldText> texts;
+    const char* traced;        ///< the point whose path is shown at first; empty: none
+    const char* drivers = "";  ///< in space: name prefix of the driven links
+};
+
+/// In the order of the variant's alternatives, from the second on.
+const std::vector<MechanismKind>& mechanism_kinds();
+/// Throws std::invalid_argument for an unknown name.
+const MechanismKind& mechanism_kind(std::string_view name);
+/// Null if it was drawn by hand.
+const MechanismKind* kind_of(const Mechanism& mechanism);
+
+/// The table and the lengths; an empty table if it was drawn by hand.
+FieldsOf mechanism_fields(const Mechanism& mechanism);
+FieldsIn mechanism_fields(Mechanism& mechanism);
 
 inline constexpr const char* linkage_lab = "linkage";
 inline constexpr std::size_t max_linkage_points = 200, max_linkage_bars = 200;

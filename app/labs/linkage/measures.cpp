@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 

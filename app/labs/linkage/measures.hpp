@@ -1,4 +1,5 @@
-// Measurements of a linkage in its pose: values as displayed, angles, transmission, and why a motor stops.
+// Measurements of a linkage, in its pose and over the last ten seconds: values as displayed, angles,
+// transmission, and why a motor stops.
 #pragma once
 
 #include <array>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "app/document/incident.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
+#include "app/widgets/plot.hpp"
 
 namespace tendril::app {
 
@@ -95,5 +98,14 @@ std::string stop_text(const LinkagePart& part);
 std::string four_bar_kind(const LinkagePart& part);
 /// Ways to move a motor on that is stopped at a dead point; empty: none.
 std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime);
+
+// The Linkage lab's last ten seconds: plots, past poses and incidents.
+
+inline constexpr const char* transmission_name = "transmission angle";
+/// The plotted number over the value of the joint that leads the turn, as it is shown: two pieces if it
+/// passes 360 degrees. None if there is no turn, or the number is that joint's own.
+std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCurve& curve);
+/// The target whose point jumped in the last solve; the mouse's while it drags. Null: none did.
+const LinkageTarget* jumped_target(const LinkagePart& part);
 
 }  // namespace tendril::app

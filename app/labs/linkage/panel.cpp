@@ -7,19 +7,16 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
-#include "app/labs/linkage/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {

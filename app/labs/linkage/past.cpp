@@ -1,10 +1,9 @@
-#include "app/labs/linkage/past.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/measures.hpp"
 

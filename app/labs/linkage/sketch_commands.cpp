@@ -6,7 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 
@@ -34,6 +34,13 @@ std::string free_point_name(const LinkageSketch& sketch) {
         if (i >= 26) name += std::to_string(i / 26 + 1);
         if (!sketch.find_point(name)) return name;
     }
+}
+
+/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
+bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
+    const auto point = sketch.find_point(name);
+    return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
+           (point && sketch.points[*point].hold == SketchHold::Guided);
 }
 
 /// The first unused name: "motor 2".
@@ -320,12 +327,6 @@ std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point)
 bool chooses_pair(const LinkageSketch& sketch, std::size_t point) {
     constexpr std::size_t most_bars = 4;
     return sketch.points[point].hold == SketchHold::Free && bars_at(sketch, point).size() <= most_bars;
-}
-
-bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
-    const auto point = sketch.find_point(name);
-    return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
-           (point && sketch.points[*point].hold == SketchHold::Guided);
 }
 
 void add_sketch_commands(CommandTable& table) {

@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/view/surfaces.hpp"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <tendril/ik/curve.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rig/controls.hpp"
 #include "app/labs/rig/panel.hpp"
@@ -17,8 +17,7 @@
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
-#include "app/view/globe.hpp"
-#include "app/view/surface_support.hpp"
+#include "app/view/surfaces.hpp"
 
 namespace tendril::app {
 

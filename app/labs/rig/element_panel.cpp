@@ -5,14 +5,11 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
@@ -18,7 +18,7 @@
 #include "app/labs/rig/time_panel.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/flips.hpp"
@@ -18,7 +18,6 @@
 #include "app/labs/rig/unit_inputs.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -12,7 +12,7 @@
 #include "app/document/runtime.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rig_part.hpp"
-#include "app/widgets/lists.hpp"
+#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 

@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
+#include "app/document/argument.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/names.hpp"
-#include "app/document/picture_arguments.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/io/character/export.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/clip.hpp"

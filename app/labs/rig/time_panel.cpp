@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
@@ -16,7 +16,6 @@
 #include "app/labs/rig/take.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

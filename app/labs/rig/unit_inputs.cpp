@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 #include "app/labs/rig/values.hpp"
 

@@ -5,16 +5,13 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
 #include "app/fields/fields.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 #include "app/labs/rig/values.hpp"
-#include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/plot.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -4,7 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <tendril/rig/euler.hpp>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -13,8 +13,8 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/panel.hpp"
-#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fields.hpp"
 

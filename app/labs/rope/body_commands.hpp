@@ -1,11 +1,14 @@
-// Shared by the command files of this lab.
+// Shared by the command files of this lab; with its preset scenes.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "app/document/camera_pose.hpp"
 #include "app/document/command.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
 
@@ -36,5 +39,18 @@ void add_collider_commands(CommandTable& table);
 void add_tie_commands(CommandTable& table);
 void add_collision_commands(CommandTable& table);
 void add_look_commands(CommandTable& table);
+
+// Preset scenes of the Rope lab: data in presets.json. Metres around the origin, with the ground at y = 0.
+
+struct RopeSceneEntry {
+    std::string name, title, help;
+    CameraPose view;   ///< the best view of the scene
+    SharedJson world;  ///< what make_rope_scene() reads
+};
+
+/// In the order of the panel. The lab opens with the first one.
+const std::vector<RopeSceneEntry>& rope_scenes();
+/// Throws std::runtime_error that begins with the JSON path of the fault: "drape.bodies.0.radius: ...".
+RopePart make_rope_scene(const RopeSceneEntry& entry);
 
 }  // namespace tendril::app

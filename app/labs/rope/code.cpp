@@ -1,5 +1,3 @@
-#include "app/labs/rope/code.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,8 +6,9 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/code_text.hpp"
-#include "app/labs/kit/world_file.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {
 namespace {
@@ -226,8 +225,10 @@ class RopeProgram {
 
 }  // namespace
 
-std::string rope_code(const RopePart& part) {
-    return RopeProgram(part).text();
+/// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Leaves out a
+/// partial tick that is left over by slow motion or frame-time jitter.
+std::string RopeLab::code(const Workspace& workspace) const {
+    return RopeProgram(rope_part(workspace)).text();
 }
 
 }  // namespace tendril::app

@@ -5,11 +5,11 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/past.hpp"
-#include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/rope_time.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {

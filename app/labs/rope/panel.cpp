@@ -9,25 +9,22 @@
 #include <tendril/signal/measure.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/pace.hpp"
-#include "app/document/units.hpp"
+#include "app/document/runtime.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"
-#include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/body_commands.hpp"
 #include "app/labs/rope/numbers.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
-#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
-#include "app/labs/rope/scenes.hpp"
+#include "app/labs/rope/rope_time.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "app/labs/kit/world_drawing.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 

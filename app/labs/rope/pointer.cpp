@@ -4,9 +4,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/numbers.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {

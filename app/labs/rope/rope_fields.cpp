@@ -1,11 +1,11 @@
-#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 #include <algorithm>
 #include <tendril/magnitude.hpp>
 
 #include "app/document/argument.hpp"
 #include "app/document/refused.hpp"
-#include "app/fields/field_in.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 template <>

@@ -6,17 +6,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/document/pace.hpp"
-#include "app/document/units.hpp"
+#include "app/document/runtime.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rope/body_commands.hpp"
-#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
 namespace {
@@ -147,10 +144,6 @@ std::vector<MouseHelp> RopeLab::mouse_help() const {
         {"Double-click on a rope", "selects all of it; its arrows then move it with its pins"},
         {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
-}
-
-std::string RopeLab::code(const Workspace& workspace) const {
-    return rope_code(rope_part(workspace));
 }
 
 /// The opening: a ball swings through the ropes that lie on it.

@@ -1,7 +1,7 @@
 #include "app/labs/rope/rope_part.hpp"
 
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,23 +1,67 @@
-// The Rope lab's part of the document: a rope world with its simulation, view and selection.
+// The Rope lab's part of the document: a rope world with its simulation, view, selection and character; and
+// its fields as users see them.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tendril/humanoid/capsules.hpp>
+#include <tendril/rope/collider.hpp>
+#include <tendril/rope/hair_roots.hpp>
 #include <vector>
 
 #include "app/document/document.hpp"
 #include "app/document/names.hpp"
+#include "app/document/outside_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/character/character.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/selection.hpp"
-#include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/walker.hpp"
 
 namespace tendril::app {
+
+class CommandTable;
+class NamedWorld;
+
+// A character in the Rope lab: the capsules of its body are colliders that follow one of its clips.
+
+/// A character from a file, or the stick figure; copies of the document share it.
+struct WalkerFigure : OutsideFile {
+    Character character;
+    humanoid::BoneMap map;
+    std::vector<humanoid::BodyCapsule> capsules;
+};
+/// An empty path gives the stick figure; `file`: the user's name for the file, if different. Throws
+/// std::runtime_error if the file cannot be read, or has no body.
+std::shared_ptr<const WalkerFigure> read_walker(const std::string& path, const std::string& file = {});
+
+struct Walker {
+    std::shared_ptr<const WalkerFigure> figure;  ///< null: there is none
+    std::string clip;                            ///< plays in a loop; empty: stands in the rest pose
+    glm::vec3 at{0.0f};                          ///< position of its file's origin, metres
+    double began = 0.0;                          ///< simulated time at which the clip began
+    bool operator==(const Walker&) const = default;
+};
+
+/// A capsule's placement; its collider has the name of its bone.
+struct WalkerCapsule {
+    std::string name;
+    rope::Capsule shape;
+};
+std::vector<WalkerCapsule> walker_capsules(const Walker& walker, double time);
+/// Starts its colliders' motion to their placement at `next`, in seconds like `now`. Where the clip restarts
+/// they are placed there at once. Removed colliders stay removed.
+void aim_walker(const Walker& walker, NamedWorld& world, double now, double next);
+
+Json save_walker(const Walker& walker);
+/// Reads the character's file again.
+Walker load_walker(const JsonPlace& place);
+
+void add_walker_commands(CommandTable& table);
 
 inline constexpr const char* rope_lab = "rope";
 /// Work per tick, mainly links times iterations. Substeps beyond it are dropped; a world whose single substep
@@ -133,7 +177,7 @@ struct RopePart final : Part, RopeRacer {
     Jitter jitter;
     RopeView view;
     int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
-    std::vector<RopeRacer> rivals;      ///< in a race (race.hpp)
+    std::vector<RopeRacer> rivals;      ///< in a race (rope_time.hpp)
     std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
     /// In the last tick, of those that bodies touch; none before it. Not saved.
     std::optional<std::vector<ColliderForce>> forces{};
@@ -170,6 +214,57 @@ inline constexpr EnumNames<RopeTool, 4> rope_tools{
      {"cut", "Cut",
       "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a cloth."},
      {"tie", "Tie", "A click on one particle and then on another ties the two."}}};
+
+// The fields of ropes, cloth, hair and colliders as users see them, and the settings of a body that hangs.
+
+class Arguments;
+
+/// The settings of rope.set: the library's body, and quantities computed from its particles and links.
+/// Those are empty if the body has no such particles or links.
+struct BodySettings {
+    rope::Body body;                       ///< its radius, friction, bending and tear
+    float length = 1.0f;                   ///< metres; a row's of a cloth, a strand's of hair
+    std::optional<float> width{};          ///< metres, across the rows of a cloth
+    std::optional<int> segments{};         ///< segments of a rope or of each strand
+    std::optional<int> columns{}, rows{};  ///< particles of a cloth
+    double mass = 1.0;                     ///< kilograms, of the whole body
+    std::optional<double> density{};       ///< kg/m, for cloth kg/m^2; none for a body without length
+    std::optional<float> stretch{};        ///< 1/N, for a rope, a strand, or a metre's width of cloth
+    std::optional<float> shear{}, bend{};  ///< compliance of its links, m/N
+    BodyColour colour = BodyColour::ByKind;
+};
+
+BodySettings settings_of(const NamedWorld& world, const rope::Body& body);
+/// The rows that the body has: a cloth has no bending.
+std::vector<Field> body_fields(const BodySettings& of);
+
+class RopeEdit;
+
+/// Applies the given fields to the body. Throws Refused for a field that the body lacks,
+/// std::invalid_argument if the library refuses.
+void set_body(RopeEdit& edit, const std::string& body, const Arguments& given);
+
+}  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept;
+
+namespace tendril::app {
+
+/// Also for the shapes that make bodies, and for patches of hair.
+template <>
+std::span<const FieldText> field_texts<BodySettings>();
+template <>
+std::span<const FieldText> field_texts<rope::TieShape>();
+/// For all kinds of collider.
+template <>
+std::span<const FieldText> field_texts<rope::Shape>();
+template <>
+std::span<const FieldText> field_texts<rope::Drive>();
+template <>
+std::span<const FieldText> field_texts<Swing>();
+template <>
+std::span<const FieldText> field_texts<Jitter>();
 
 }  // namespace tendril::app
 

@@ -1,11 +1,17 @@
-// Advances time in the Rope lab: whole ticks, or uneven frames by frame-time jitter; and swinging colliders.
+// Advances time in the Rope lab, in its world and in the rivals of a race: whole ticks, or uneven frames by
+// frame-time jitter; and swinging colliders.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "app/document/runtime.hpp"
 #include "app/labs/rope/rope_part.hpp"
+#include "app/view/palette.hpp"
+#include "app/view/panes.hpp"
 
 namespace tendril::app {
 
@@ -36,5 +42,38 @@ bool at_rest(const RopePart& part);
 
 /// Whether everything is within the bounds of the world.
 bool in_range(const NamedWorld& world);
+
+// A race: the scene by each solver, side by side with one camera. A command that changes the part's own world
+// also changes its rivals' worlds, and all pass the same ticks.
+
+class CommandTable;
+
+/// In the order of the panes: the part itself, then its rivals.
+std::vector<std::reference_wrapper<const RopeRacer>> rope_racers(const RopePart& part);
+RopeSample last_sample(const RopeRacer& racer);
+/// The one that is drawn in a pane; the part itself if there is no such pane.
+const RopeRacer& racer_in(const RopePart& part, std::size_t pane);
+inline const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
+    return *racer_in(part, pane).world;
+}
+
+/// Starts the race from the present state of the part's own world.
+void begin_race(RopePart& part);
+/// The part with the rival's world, samples and drag in place of its own.
+RopePart part_of_rival(const RopePart& part, const RopeRacer& rival);
+/// Applies to each rival the command that changed `part`'s own world, which was `old` before. A rival that
+/// lacks the named object, such as a tie that tore there, stays as it is. If the command chose a rival's
+/// solver, the two change places.
+void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change);
+/// Sets the settings of all worlds; each rival keeps its solver, or changes places as above.
+void take_settings(RopePart& part, const rope::Settings& settings);
+
+glm::vec3 rope_solver_colour(const Palette& palette, rope::Solver solver);
+/// "length error 0.02 %, 12.30 J"
+std::string racer_text(const RopeSample& last);
+/// Titles of the panes; none without a race. `cost`: with the time per tick.
+std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, bool cost);
+
+void add_rope_race_commands(CommandTable& table);
 
 }  // namespace tendril::app

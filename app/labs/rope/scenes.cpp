@@ -1,4 +1,4 @@
-#include "app/labs/rope/scenes.hpp"
+#include "app/labs/rope/body_commands.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "app/view/assets.hpp"
 
 namespace tendril::app {

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/race.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/rope_time.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {

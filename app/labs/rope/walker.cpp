@@ -1,8 +1,7 @@
-#include "app/labs/rope/walker.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <stdexcept>
 #include <tendril/humanoid/clip.hpp>
@@ -10,7 +9,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/skin.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "app/labs/kit/arguments.hpp"

@@ -1,17 +1,13 @@
 // Commands on the whole world, on colliders, and on selection, drags and view.
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/world_file.hpp"
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/body_commands.hpp"
-#include "app/labs/rope/code.hpp"
-#include "app/labs/rope/race.hpp"
-#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
 namespace {
@@ -88,7 +84,7 @@ void add_world_commands(CommandTable& table) {
     table.add("rope.copy", "Copy the ropes as C++", {},
               "Copies ropes and colliders to the clipboard as a C++ program that uses the library",
               Effect::Look, [](Workspace& workspace, const Arguments&) {
-                  workspace.ui.copied = rope_code(rope_part(workspace));
+                  workspace.ui.copied = RopeLab().code(workspace);
                   workspace.toast("The ropes are on the clipboard as C++");
               });
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),

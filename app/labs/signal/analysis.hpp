@@ -1,18 +1,47 @@
-// Measurements of the Signal lab: of each filter, of the whole chain at several frame rates, of every kind of
-// filter. All are functions of the part, recomputed only when their inputs change; and the ranges of plots.
+// Measurements and fits of the Signal lab: of each filter, of the whole chain at several frame rates, of
+// every kind of filter. All are functions of the part, recomputed only when their inputs change; and the
+// ranges of plots.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <tendril/signal/measure.hpp>
 #include <vector>
 
 #include "app/document/runtime.hpp"
-#include "app/labs/signal/fitting.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "app/widgets/plot.hpp"
 
 namespace tendril::app {
+
+// Fits every kind of filter to the desired response, a slice in every tick, so that the window stays
+// responsive. The progress is stored in the part and depends on the number of ticks, never on the clock.
+
+/// The search in progress. It is a function of the part: if lost, it is redone up to the part's progress.
+class FitWork {
+  public:
+    /// Computes one slice, some 2 to 15 ms; the last slice of a kind adds its fit to the part.
+    void advance(SignalPart& part);
+
+  private:
+    /// The search of one kind, with its rows.
+    struct Task {
+        Task(const SignalPart& part);
+        bool of(const SignalPart& part) const;
+        void advance();
+
+        InputRows rows;
+        std::vector<double> wanted;
+        std::vector<signal::Filter> from;
+        std::size_t kind;
+        FitProblem problem;
+        std::unique_ptr<FitTask> task;
+        std::size_t shares = 0;
+        bool more = true;
+    };
+    std::unique_ptr<Task> task_;
+};
 
 /// The chain over its measuring rows: the input from 0 on or, for the hand, the input up to the last quarter
 /// of a second. Cost: 1.5 ms for eight filters; for the hand, at most four times a second.

@@ -1,4 +1,3 @@
-#include "app/labs/signal/draw.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -6,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/panel.hpp"
 #include "app/labs/signal/signal_lab.hpp"
@@ -37,6 +36,12 @@ void axis(const View& view, DrawList& list, double highest) {
     }
 }
 
+/// The ball's: blue while a response is recorded, else the shown output's.
+glm::vec3 output_colour(const Palette& palette, const SignalPart& part) {
+    const std::optional<std::size_t> last = shown_stage(part);
+    return last && !part.recording ? stage_colour(palette, part.stages[*last]) : palette.head;
+}
+
 }  // namespace
 
 BallPlaces ball_places(const SignalPart& part) {
@@ -47,11 +52,6 @@ BallPlaces ball_places(const SignalPart& part) {
 
 glm::vec3 input_colour(const Palette& palette) {
     return palette.target;
-}
-
-glm::vec3 output_colour(const Palette& palette, const SignalPart& part) {
-    const std::optional<std::size_t> last = shown_stage(part);
-    return last && !part.recording ? stage_colour(palette, part.stages[*last]) : palette.head;
 }
 
 glm::vec3 stage_colour(const Palette& palette, const SignalStage& stage) {

@@ -1,4 +1,5 @@
-// JSON of filters and their states, for FILTER.json, commands, scene files and --state.
+// Filters and their states as JSON, for FILTER.json, commands, scene files and --state, with the words of
+// their fields.
 //
 //     {"kind": "spring", "strength": 4, "critical_damping": 0.5}
 //
@@ -7,12 +8,14 @@
 // required.
 #pragma once
 
+#include <span>
 #include <string>
 #include <tendril/signal/filter.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
 
@@ -36,5 +39,10 @@ signal::FilterState filter_state_from_json(const JsonPlace& place);
 /// Prefixes `error`, which begins with a JSON path under `where`, with its line in `text`. The text must
 /// contain at least one filter.
 std::string with_line(const std::string& text, const std::string& where, const std::string& error);
+
+// Labels and help for the fields of filters.
+
+/// One per field of the kind, in the same order; none for a curve's keys, which have an editor.
+std::span<const FieldText> filter_texts(const signal::Kind& kind);
 
 }  // namespace tendril::app

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <span>
 #include <tendril/signal/filter.hpp>
@@ -109,6 +110,105 @@ class Trial {
     const FitProblem& problem_;
     double range_;
     std::vector<double> output_;
+};
+
+// The search space of a fit: its parameters, their ranges and scales; and initial guesses. Ranges follow from
+// the rows: signals in degrees or at 1000 Hz fit as well as signals from 0 to 1 at 60 Hz.
+
+/// The facts that ranges depend on.
+struct FitFacts {
+    explicit FitFacts(const FitProblem& problem);
+
+    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, ignoring values of nearly 0
+    double duration = 1.0;         ///< seconds of all rows
+    double input_low = 0.0, input_high = 1.0;
+    double response_low = 0.0, response_high = 1.0;
+    double largest_jump = 1.0;  ///< the input's, from row to row
+    double speed = 1.0;         ///< the input's: root mean square, 1/s
+
+    double input_range() const { return input_high - input_low; }
+    double response_range() const { return response_high - response_low; }
+    double span() const;  ///< the larger range; never 0
+};
+
+/// A searched parameter: maps its values from `low` to `high` to 0 to 1.
+struct Dimension {
+    enum class Scale {
+        Even,
+        Ratio,  ///< logarithmic; low and high must be positive
+        Cube,   ///< finer towards low, which it includes
+        Fifth   ///< finer still
+    };
+    const Field* field = nullptr;
+    double low = 0.0, high = 1.0;
+    Scale scale = Scale::Even;
+    bool stepped = false;  ///< a threshold
+
+    double value(double at) const;
+    double at(double value) const;
+};
+
+/// The space of any kind but curve and scale_bias_clamp, which have fits of their own.
+std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts);
+
+/// The dimension of one parameter; `field` must be a field of the kind.
+Dimension dimension(const signal::Kind& kind, const char* field, double low, double high,
+                    Dimension::Scale scale, bool stepped = false);
+
+// Initial guesses from the rows, for kinds whose optimum a search of the whole range can miss.
+
+/// Filters of the kind to start from; none for most kinds. Checking each takes one run over the rows.
+std::vector<signal::Filter> first_guesses(const signal::Kind& kind, const FitProblem& problem,
+                                          const FitFacts& facts);
+
+// Minimises a function of a few numbers, each from 0 to 1: evaluates points spread evenly over the range,
+// then improves the best with NLopt's local methods (Sbplx, Nelder-Mead). Deterministic: no random numbers,
+// no clock; the number of dimensions bounds the evaluations.
+
+using Objective = std::function<double(std::span<const double>)>;
+
+struct Search {
+    std::size_t dimensions = 1;
+    /// Dimensions in which the function is a step function, as for a threshold: local methods fail there.
+    std::vector<std::size_t> stepped{};
+    /// Points to try in addition.
+    std::vector<std::vector<double>> starts{};
+    double enough = 0.0;  ///< stop at this value or below
+};
+
+struct Minimum {
+    std::vector<double> at;
+    double value = 0.0;
+    int evaluations = 0;
+};
+
+/// The search, computed in slices. Cost: some 200 evaluations in one dimension to 10 000 in six, at most 1500
+/// in one slice. Values that are not finite count as very large.
+class Minimiser {
+  public:
+    Minimiser(Objective objective, Search search);
+
+    /// Returns whether there is more to do.
+    bool advance();
+    /// The best point so far.
+    const Minimum& best() const { return best_; }
+
+  private:
+    using Point = std::vector<double>;
+
+    std::size_t dimensions() const { return search_.dimensions; }
+    bool enough() const { return best_.value <= search_.enough; }
+    std::size_t point_count() const;
+    double value(std::span<const double> at);
+    void spread();
+    Point scan(Point at);
+    void improve(int algorithm, Point at, double step, std::size_t evaluations_each);
+
+    Objective objective_;
+    Search search_;
+    Minimum best_;
+    std::vector<Point> candidates_;  ///< the best of the initial points, to be improved
+    std::size_t shares_ = 0;
 };
 
 }  // namespace tendril::app

@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "app/labs/signal/fit.hpp"
-#include "app/labs/signal/fit_space.hpp"
-#include "app/labs/signal/search.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/labs/signal/fit_space.hpp"
+#include "app/labs/signal/fit.hpp"
 
 #include <algorithm>
 #include <cmath>

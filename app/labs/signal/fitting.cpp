@@ -1,4 +1,3 @@
-#include "app/labs/signal/fitting.hpp"
 
 #include <algorithm>
 
@@ -6,8 +5,7 @@
 #include "app/document/refused.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/code.hpp"
-#include "app/labs/signal/signal_commands.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {
@@ -196,9 +194,8 @@ std::string csv_of(const SignalPart& part) {
 }
 
 void copy(Workspace& workspace, const Arguments& given) {
-    const SignalPart& part = signal_part(workspace);
     const bool cpp = given.text("as") == "cpp";
-    workspace.ui.copied = cpp ? signal_code(part) : csv_of(part);
+    workspace.ui.copied = cpp ? SignalLab().code(workspace) : csv_of(signal_part(workspace));
     workspace.toast(cpp ? "The filters are on the clipboard as C++"
                         : "The last ten seconds are on the clipboard as CSV");
 }

@@ -5,21 +5,15 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/draw.hpp"
-#include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
-#include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
-#include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
@@ -329,8 +323,7 @@ void measure_rows(const SignalPart& part, const ChainAnalysis& analysis, const P
     }
 }
 
-}  // namespace
-
+/// The ranking of fitted filters.
 void fit_rows(const SignalPart& part, Emit& emit) {
     if (part.plot != SignalPlot::Fit) return;
     const PanelSection ids("Fit");
@@ -385,6 +378,8 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     }
     note("Error left, % of the range; click to use.");
 }
+
+}  // namespace
 
 void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);

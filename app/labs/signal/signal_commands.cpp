@@ -1,13 +1,10 @@
-#include "app/labs/signal/signal_commands.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 
 #include <algorithm>
-#include <functional>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
-#include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
-#include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {

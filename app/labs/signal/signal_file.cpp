@@ -6,7 +6,7 @@
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
 #include "app/labs/signal/filter_json.hpp"
-#include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "app/view/assets.hpp"
 

@@ -5,15 +5,11 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
-#include "app/document/units.hpp"
+#include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/code.hpp"
-#include "app/labs/signal/draw.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/panel.hpp"
-#include "app/labs/signal/presets.hpp"
-#include "app/labs/signal/signal_commands.hpp"
 
 namespace tendril::app {
 namespace {
@@ -35,6 +31,12 @@ Json following_name(signal::Following following) {
         default:
             return nullptr;
     }
+}
+
+std::string initialiser(const signal::Filter& filter) {
+    const signal::Kind& kind = signal::kind_of(filter);
+    return library_name(kind.in_code) +
+           struct_text({kind.table(), signal::fields_in(filter)}, "                        ");
 }
 
 }  // namespace
@@ -135,10 +137,6 @@ std::vector<MouseHelp> SignalLab::mouse_help() const {
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
 }
 
-std::string SignalLab::code(const Workspace& workspace) const {
-    return signal_code(signal_part(workspace));
-}
-
 Json SignalLab::state(const Workspace& workspace) const {
     const SignalPart& part = signal_part(workspace);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
@@ -201,6 +199,36 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
                 "It is still moving when the input jumps again. " + why};
     if (whole.following == signal::Following::Follows) return {"Follows", Verdict::Kind::Good, why};
     return {"Nothing to follow yet", Verdict::Kind::Open, "The input has not changed."};
+}
+
+/// A complete program: the enabled filters, stepped frame by frame through one second after a jump.
+std::string SignalLab::code(const Workspace& workspace) const {
+    std::string text =
+        "// Filters, exported from Tendril.\n"
+        "//\n"
+        "// CMake: find_package(tendril REQUIRED)\n"
+        "//        target_link_libraries(your_program PRIVATE tendril::core)\n"
+        "#include <cstdio>\n"
+        "#include <tendril/signal/run.hpp>\n"
+        "#include <vector>\n\n"
+        "using namespace tendril;\n\n"
+        "int main() {\n"
+        "    // Applied in this order.\n"
+        "    const std::vector<signal::Filter> filters{";
+    const std::vector<signal::Filter> filters = enabled_filters(signal_part(workspace));
+    for (const signal::Filter& filter : filters) text += "\n        " + initialiser(filter) + ",";
+    text += filters.empty() ? "};\n" : "\n    };\n";
+    text +=
+        "    // What they remember: copy it to save it, start from a fresh one to reset them.\n"
+        "    std::vector<signal::FilterState> states(filters.size());\n\n"
+        "    const double dt = 1.0 / 60.0;\n"
+        "    for (int frame = 0; frame <= 60; ++frame) {\n"
+        "        const double input = frame == 0 ? 0.0 : 1.0;  // a jump\n"
+        "        const double output = signal::step(filters, states, input, dt);\n"
+        "        std::printf(\"%.4f %.6f\\n\", frame * dt, output);\n"
+        "    }\n"
+        "}\n";
+    return text;
 }
 
 }  // namespace tendril::app

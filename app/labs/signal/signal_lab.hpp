@@ -1,7 +1,12 @@
-// The Signal lab: the user builds a chain of filters and chooses its input; the output is shown as curves, as
-// a moving ball, and as numbers.
+// The Signal lab, its commands, presets and C++: the user builds a chain of filters and chooses its input;
+// the output is shown as curves, as a moving ball, and as numbers.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "app/document/command.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
 
@@ -50,5 +55,21 @@ class SignalLab final : public Lab {
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };
+
+// The commands of the Signal lab: signal.*.
+
+void add_filter_commands(CommandTable& table);
+void add_input_commands(CommandTable& table);
+void add_fit_commands(CommandTable& table);
+
+/// Presets: chains of filters, each with an input and a plot that show its point. Data in presets.json.
+struct SignalPreset {
+    std::string name, title;
+    std::string point;  ///< things to notice and to try
+    SignalPart part;
+};
+
+/// In the order of the panel. The lab opens with the first one.
+const std::vector<SignalPreset>& signal_presets();
 
 }  // namespace tendril::app

@@ -94,7 +94,7 @@ struct Recording {
     bool operator==(const Recording&) const = default;
 };
 
-/// A fit in progress, computed in slices, one per tick (fitting.hpp): one kind after the other, in the order
+/// A fit in progress, computed in slices, one per tick (analysis.hpp): one kind after the other, in the order
 /// of signal::kinds(). SignalPart::fits has the completed ones.
 struct Fitting {
     std::vector<signal::Filter> from;  ///< the chain at the start: further starting points of the searches

@@ -1,5 +1,5 @@
 // A chain as a C++ program: its text. tests/package/code.cmake compiles it, runs it and compares its results.
-#include "app/labs/chain/code.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/kit/code_text.hpp"
 
 #include <glm/trigonometric.hpp>

@@ -1,6 +1,6 @@
 // `tendril lint` and `tendril bake`: the built program with valid and invalid files.
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
-#include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/support/program.hpp"
 

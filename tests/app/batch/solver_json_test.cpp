@@ -8,7 +8,6 @@
 #include <random>
 #include <tendril/ik/active_limit.hpp>
 
-#include "app/io/solver_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 

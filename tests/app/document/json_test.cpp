@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/list_reader.hpp"
+#include "app/document/json_scan.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"

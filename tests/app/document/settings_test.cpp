@@ -12,7 +12,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/outputs.hpp"
 #include "app/document/settings.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/system/environment.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"

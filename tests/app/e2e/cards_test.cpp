@@ -1,9 +1,9 @@
 // The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
-#include "app/document/argument_check.hpp"
+#include "app/document/command.hpp"
 #include "app/view/assets.hpp"
-#include "app/widgets/section_light.hpp"
+#include "app/widgets/row_search.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"

@@ -1,7 +1,7 @@
 // The loop of a real window, stepped by hand: it draws if something may have changed, and only then.
 #include "app/live_loop.hpp"
 
-#include "app/document/pace.hpp"
+#include "app/document/runtime.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"

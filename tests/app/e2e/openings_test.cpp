@@ -1,7 +1,8 @@
 // The openings: each lab moves by itself in a new window until the user takes over.
 #include "app/document/scene_file.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/opening.hpp"
+#include "app/app.hpp"
+#include "app/session.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/support/driven_app.hpp"

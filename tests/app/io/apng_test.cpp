@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/io/apng.hpp"
+#include "app/io/samples.hpp"
 #include "app/system/child_process.hpp"
-#include "app/io/points.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/io/character/bvh.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/io/character/base64.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/fbx/fbx.hpp"
-#include "app/io/character/read.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

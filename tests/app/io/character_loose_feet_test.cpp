@@ -10,13 +10,12 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/document/json.hpp"
-#include "app/io/character/attach_feet.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/bvh.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_write.hpp"
-#include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/read.hpp"
 #include "tests/app/io/gltf_text.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/counted_memory.hpp"

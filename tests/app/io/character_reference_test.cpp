@@ -12,7 +12,7 @@
 #include <tendril/humanoid/clip.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

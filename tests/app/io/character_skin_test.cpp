@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "app/io/character/character.hpp"
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/read.hpp"
 #include "tests/app/io/gltf_text.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/io/character/gltf.hpp"
-#include "app/io/character/gltf_vrm_springs.hpp"
+#include "app/io/character/gltf_vrm.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 

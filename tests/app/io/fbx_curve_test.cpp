@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/io/character/fbx/curve.hpp"
+#include "app/io/character/fbx/animation.hpp"
 #include "app/io/character/fbx/fbx.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"

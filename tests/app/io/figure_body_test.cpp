@@ -11,11 +11,10 @@
 #include <random>
 #include <string>
 
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
-#include "app/io/character/figure_body.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/skin.hpp"
 #include "app/io/character/stick_figure.hpp"
-#include "app/io/character/twist_spread.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/humanoid_figure.hpp"

@@ -9,8 +9,8 @@
 #include <glm/trigonometric.hpp>
 #include <tendril/humanoid/lint.hpp>
 
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
-#include "app/io/character/read.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"

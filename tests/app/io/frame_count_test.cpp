@@ -11,8 +11,8 @@
 
 #include "app/io/character/bake.hpp"
 #include "app/io/character/bvh.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
-#include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
 #include "tests/labels.hpp"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
 #include "tests/labels.hpp"
@@ -363,7 +363,8 @@ TEST(LintFiles, ThirdPartyFilesHaveTheKnownFaults) {
         std::map<Fault, int> counts;
         for (const Clip& clip : character.clips)
             for (const Finding& each : lint(character.skeleton, bone_map(character), clip).findings) {
-                EXPECT_TRUE(known->second.count(humanoid::name(each.fault))) << clip.name << ": " << each.text;
+                EXPECT_TRUE(known->second.count(humanoid::name(each.fault)))
+                    << clip.name << ": " << each.text;
                 ++counts[each.fault];
             }
         EXPECT_EQ(counts.size(), known->second.size());

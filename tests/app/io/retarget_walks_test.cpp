@@ -12,7 +12,7 @@
 #include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"

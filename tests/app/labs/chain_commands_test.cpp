@@ -1,6 +1,6 @@
 // The Chain lab's commands: effects, refusals, and that a refusal changes nothing.
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
-#include "app/labs/chain/presets.hpp"
 #include "tests/app/labs/chain_support.hpp"
 
 namespace tendril::app {

@@ -2,7 +2,7 @@
 // kept, and one undo step reverts it.
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/random_numbers.hpp"
 

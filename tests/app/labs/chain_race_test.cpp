@@ -2,7 +2,7 @@
 #include <map>
 #include <tendril/ik/solver.hpp>
 
-#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/panel_text.hpp"

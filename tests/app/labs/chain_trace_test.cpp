@@ -5,7 +5,7 @@
 #include <fstream>
 #include <limits>
 
-#include "app/labs/chain/code.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"

@@ -5,7 +5,6 @@
 
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/measures.hpp"
-#include "app/labs/linkage/past.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/linkage_support.hpp"
 #include "tests/app/support/random_numbers.hpp"

@@ -2,7 +2,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/labs/rope/rope_edit.hpp"
-#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/emit.hpp"
 #include "tests/app/labs/rope_support.hpp"

@@ -1,7 +1,7 @@
 // Every scene of the Rope lab for 12 seconds at its own settings: it keeps its lengths and stays in place. Of
 // 14 that were measured for a minute, none was more than 0.05 % worse later.
+#include "app/labs/rope/body_commands.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

@@ -1,7 +1,7 @@
 // Editing the material of ropes, cloth and hair while they hang.
+#include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/race.hpp"
-#include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "app/labs/rope/numbers.hpp"
-#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_time.hpp"
 #include "app/widgets/emit.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"

@@ -1,7 +1,7 @@
 // The Signal lab's commands: effects, --state, and refusals.
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/panel.hpp"
-#include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/panel_text.hpp"

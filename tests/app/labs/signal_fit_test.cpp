@@ -3,7 +3,6 @@
 
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/fit.hpp"
-#include "app/labs/signal/fit_space.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/fit_support.hpp"
 #include "tests/app/labs/lab_support.hpp"

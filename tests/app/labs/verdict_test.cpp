@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "app/document/pace.hpp"
+#include "app/document/runtime.hpp"
 #include "app/labs/kit/selection.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/rope_support.hpp"

@@ -1,13 +1,11 @@
 // The palette's results, offers and messages while a line is typed, without a window.
-#include "app/shell/command_completion.hpp"
+#include "app/shell/command_line.hpp"
 
 #include <random>
 
-#include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/labs/labs.hpp"
-#include "app/shell/command_search.hpp"
 #include "tests/app/support/program.hpp"
 
 namespace tendril::test {

@@ -9,7 +9,7 @@
 #include "app/labs/labs.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/input.hpp"
-#include "app/shell/layout.hpp"
+#include "app/shell/shell.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "tests/app/support/full_scenes.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "app/shell/layout.hpp"
+#include "app/shell/shell.hpp"
 #include "tests/app/support/frame_record.hpp"
 
 namespace tendril::test {

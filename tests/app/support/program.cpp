@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/command_line.hpp"
+#include "app/session.hpp"
 
 namespace tendril::test {
 namespace {

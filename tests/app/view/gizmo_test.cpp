@@ -11,7 +11,6 @@
 #include <limits>
 #include <random>
 
-#include "app/view/gizmo_drag.hpp"
 #include "app/view/picking.hpp"
 
 namespace tendril::app::gizmo_test {

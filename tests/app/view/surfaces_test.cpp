@@ -8,7 +8,6 @@
 #include <limits>
 #include <random>
 
-#include "app/view/spline.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app::surfaces_test {
@@ -93,7 +92,7 @@ TEST(Tube, IsRoundAboutItsAxis) {
             EXPECT_NEAR(glm::length(out), radius, 1e-5f) << "also at the caps, which are half balls";
             const glm::vec3 sight = orthographic ? -camera.forward() : camera.eye() - vertex.position;
             if (glm::dot(out, sight) < 0.0f) continue;  // not visible
-            EXPECT_GT(glm::dot(glm::normalize(out), vertex.normal), 0.98f) << "nearly: see tube_skin.cpp";
+            EXPECT_GT(glm::dot(glm::normalize(out), vertex.normal), 0.98f) << "nearly: see tube.cpp";
         }
     }
 }

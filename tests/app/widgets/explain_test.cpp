@@ -6,7 +6,6 @@
 
 #include "app/shell/input.hpp"
 #include "app/shell/ui.hpp"
-#include "app/widgets/axis.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/window/window.hpp"

@@ -1,5 +1,5 @@
 // Expressions typed into a number field, and their values.
-#include "app/widgets/expression.hpp"
+#include "app/widgets/number_entry.hpp"
 #include "tests/says.hpp"
 
 #include <cmath>

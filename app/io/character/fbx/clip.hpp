@@ -16,9 +16,6 @@ struct Tolerance {
     double length = 1e-3;
     std::vector<double> levers{};  ///< per bone, the distance up to which its rotation moves nodes
 };
-/// 0.005 mm for a figure of 1.8 m, at least 0.001 mm: the errors of a chain of nodes add up. `metres` per
-/// unit of the file.
-Tolerance tolerance_for(const Body& body, double metres);
 
 class ClipWriter {
   public:

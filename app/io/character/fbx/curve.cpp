@@ -1,4 +1,4 @@
-#include "app/io/character/fbx/curve.hpp"
+#include "app/io/character/fbx/animation.hpp"
 
 #include <algorithm>
 #include <array>

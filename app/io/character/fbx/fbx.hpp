@@ -1,10 +1,9 @@
 // Characters in FBX files, binary or text, versions 6.0 to 7.7. Contents that are not supported are left out
 // and listed in the character's notes.
 //
-//     record.hpp     the file as records
-//     objects.hpp    objects, their properties and connections
+//     record.hpp     the file as records, and as objects with properties and connections
 //     node.hpp       models as nodes, and their transforms
-//     curve.hpp, animation.hpp    stacks, layers and curves, evaluated as written
+//     animation.hpp  stacks, layers and curves, evaluated as written
 //     body.hpp       the nodes that form the skeleton
 //     clip.hpp       the stacks as clips
 //     surface.hpp    meshes, materials and skins
@@ -14,7 +13,6 @@
 #include <string_view>
 
 #include "app/io/character/character.hpp"
-#include "app/io/character/progress.hpp"
 
 namespace tendril::app {
 

@@ -11,7 +11,7 @@
 #include <tendril/humanoid/skeleton.hpp>
 #include <vector>
 
-#include "app/io/character/fbx/objects.hpp"
+#include "app/io/character/fbx/record.hpp"
 
 namespace tendril::app::fbx {
 

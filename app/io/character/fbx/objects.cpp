@@ -1,6 +1,5 @@
-#include "app/io/character/fbx/objects.hpp"
+#include "app/io/character/fbx/record.hpp"
 
-#include <algorithm>
 
 namespace tendril::app::fbx {
 

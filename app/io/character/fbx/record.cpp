@@ -1,7 +1,6 @@
 #include "app/io/character/fbx/record.hpp"
 
 #include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -126,6 +125,244 @@ std::vector<T> all_of(const Record& record) {
     return result;
 }
 
+constexpr std::uint64_t max_array_bytes = std::uint64_t{1} << 30;  // sum over all arrays
+constexpr std::uint64_t max_packed = 1032;                         // zlib's maximum expansion
+constexpr std::size_t binary_header = 27;
+
+using std::to_string;
+
+class BinaryRecords final : public RecordReader {
+  public:
+    explicit BinaryRecords(std::string_view bytes) : bytes_(bytes), at_(binary_header) {
+        if (bytes.size() < at_) fail("ends in its header");
+        file_.version = static_cast<int>(number<std::uint32_t>(23) & 0xffffff);
+        wide_ = file_.version >= 7500;
+    }
+
+    File read() {
+        while (at_ < bytes_.size()) {
+            const std::size_t begin = at_;
+            Head head = take_head();
+            if (head.end == 0) {  // the end of a record's contents, or of the file
+                if (!inside()) break;
+                if (at_ != end()) fail("a record that does not end where it says");
+                close();
+                continue;
+            }
+            const std::size_t limit = inside() ? end() : bytes_.size();
+            if (head.end <= begin || head.end > limit)
+                fail("a record that ends at byte " + to_string(head.end) + ", of " + to_string(limit));
+            properties(head);
+            open(std::move(head.record), static_cast<std::size_t>(head.end));
+            if (at_ == end()) close();
+        }
+        return finish();
+    }
+
+  private:
+    struct Head {
+        std::uint64_t end = 0, count = 0, length = 0;
+        Record record{};
+    };
+
+    std::string place() const override { return "byte " + to_string(at_); }
+    void need(std::uint64_t bytes) const {
+        if (bytes > bytes_.size() - at_)
+            fail("claims " + to_string(bytes) + " bytes, the file has " + to_string(bytes_.size() - at_) +
+                 " more");
+    }
+    template <class T>
+    T number(std::size_t at) const {
+        T value;
+        std::memcpy(&value, bytes_.data() + at, sizeof value);
+        return value;
+    }
+    std::string_view take(std::uint64_t size) {
+        need(size);
+        at_ += static_cast<std::size_t>(size);
+        return bytes_.substr(at_ - static_cast<std::size_t>(size), static_cast<std::size_t>(size));
+    }
+    template <class T>
+    T take() {
+        take(sizeof(T));
+        return number<T>(at_ - sizeof(T));
+    }
+    std::uint64_t take_size() { return wide_ ? take<std::uint64_t>() : take<std::uint32_t>(); }
+
+    Head take_head() {
+        Head head;
+        head.end = take_size();
+        head.count = take_size();
+        head.length = take_size();
+        head.record.name = take(take<std::uint8_t>());
+        return head;
+    }
+    void properties(Head& head) {
+        need(head.length);
+        const std::size_t end = at_ + static_cast<std::size_t>(head.length);
+        if (end > head.end) fail("properties longer than their record");
+        for (std::uint64_t i = 0; i < head.count; ++i) {
+            if (at_ >= end) fail("claims " + to_string(head.count) + " properties, has " + to_string(i));
+            if (const char kind = bytes_[at_]; number_bytes(kind) == 0 && kind != 'S' && kind != 'R') {
+                skip_unknown(head.record.name, end);
+                break;
+            }
+            head.record.properties.push_back(property());
+        }
+        if (at_ != end) fail("properties that do not end where they say");
+    }
+    /// Skips to the end of the record: the length of a property of unknown kind is not known.
+    void skip_unknown(std::string_view name, std::size_t end) {
+        const char kind[]{bytes_[at_], '\0'};
+        if (file_.note.empty())
+            file_.note =
+                "Values of an unknown kind are left out, the first one (kind " +
+                (kind[0] > ' ' && kind[0] <= '~' ? std::string(kind)
+                                                 : to_string(int(static_cast<unsigned char>(kind[0])))) +
+                ") in record " + std::string(name) + ".";
+        at_ = end;
+    }
+    Property property() {
+        const char kind = static_cast<char>(take<std::uint8_t>());
+        const std::size_t size = number_bytes(kind);
+        if (size == 0) return {kind, take(take<std::uint32_t>())};  // a string
+        return {kind, is_array(kind) ? array(size) : take(size)};
+    }
+    std::string_view array(std::uint64_t size) {
+        const std::size_t begin = at_;
+        const std::uint64_t count = take<std::uint32_t>();
+        const auto encoding = take<std::uint32_t>();
+        const std::uint64_t length = take<std::uint32_t>();
+        need(length);
+        if (encoding > 1 || (encoding == 0 && length != count * size) ||
+            (encoding == 1 && count * size > max_packed * length))
+            fail("an array that claims " + to_string(count) + " numbers in " + to_string(length) + " bytes");
+        all_arrays_ += count * size;
+        if (all_arrays_ > max_array_bytes) fail("arrays of more than 1 GB in total");
+        take(length);
+        return bytes_.substr(begin, at_ - begin);
+    }
+
+    std::string_view bytes_;
+    std::size_t at_;
+    bool wide_ = false;
+    std::uint64_t all_arrays_ = 0;
+};
+
+/// `Name: value, value { records }`. A list begins on a later line, or continues there after a comma, unless
+/// a record begins there; it also continues if that line begins with a comma.
+class TextRecords final : public RecordReader {
+  public:
+    explicit TextRecords(std::string_view text) : text_(text) {}
+
+    File read() {
+        while (true) {
+            skip_lines();
+            if (at_ == text_.size()) break;
+            if (text_[at_] == '}') {
+                if (!inside()) fail("} without a matching {");
+                ++at_;
+                close();
+                continue;
+            }
+            Record record;
+            record.name = name();
+            properties(record);
+            skip_lines();
+            open(std::move(record));
+            if (at_ < text_.size() && text_[at_] == '{')
+                ++at_;
+            else
+                close();
+        }
+        const Record* header = file_.root.child("FBXHeaderExtension");
+        const Record* version = header ? header->child("FBXVersion") : nullptr;
+        file_.version = version ? static_cast<int>(version->integer(0) % 1'000'000) : version_in_comment();
+        return finish();
+    }
+
+  private:
+    std::string place() const override { return "line " + std::to_string(line_); }
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
+    void skip_blanks() {
+        while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    }
+    /// Skips line ends and comments, too.
+    void skip_lines() {
+        for (; at_ < text_.size(); ++at_) {
+            if (text_[at_] == ';') at_ = std::min(text_.find('\n', at_), text_.size());
+            if (at_ == text_.size()) return;
+            if (text_[at_] == '\n')
+                ++line_;
+            else if (!is_blank(text_[at_]))
+                return;
+        }
+    }
+    std::string_view word() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_]) &&
+               std::string_view("\n:,;{}\"").find(text_[at_]) == std::string_view::npos)
+            ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+    std::string_view name() {
+        const std::string_view name = word();
+        skip_blanks();
+        if (name.empty() || at_ == text_.size() || text_[at_] != ':')
+            fail("expected a record, \"Name: ...\"");
+        ++at_;
+        return name;
+    }
+    /// Whether no value follows: `Name:`, a brace, or the end.
+    bool at_record() {
+        const std::size_t begin = at_;
+        const bool has_word = !word().empty();
+        skip_blanks();
+        const char next = at_ < text_.size() ? text_[at_] : '}';
+        const bool ends = has_word ? next == ':' : next == '{' || next == '}';
+        at_ = begin;
+        return ends;
+    }
+    void properties(Record& record) {
+        for (bool more = true; more;) {
+            skip_lines();
+            if (at_record()) return;
+            record.properties.push_back(property());
+            const std::size_t after = at_, line = line_;
+            skip_lines();
+            more = at_ < text_.size() && text_[at_] == ',';
+            if (more)
+                ++at_;
+            else
+                at_ = after, line_ = line;
+        }
+        skip_blanks();
+        if (at_ < text_.size() && std::string_view("\n;{}").find(text_[at_]) == text_.npos)
+            fail("expected a comma or the end of the line");
+    }
+    Property property() {
+        if (at_ == text_.size() || text_[at_] != '"') return {'T', word()};
+        const std::size_t begin = ++at_, end = text_.find('"', begin);
+        if (end == text_.npos) fail("a string without an end");
+        for (; at_ < end; ++at_)
+            if (text_[at_] == '\n') ++line_;
+        at_ = end + 1;
+        return {'S', text_.substr(begin, end - begin)};
+    }
+    /// "; FBX 6.1.0 project file": 6100.
+    int version_in_comment() const {
+        const std::size_t at = text_.substr(0, 4096).find("; FBX ");
+        if (at == text_.npos || at + 8 >= text_.size()) return 0;
+        const char major = text_[at + 6], minor = text_[at + 8];
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        return is_digit(major) && is_digit(minor) ? 1000 * (major - '0') + 100 * (minor - '0') : 0;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+};
+
 }  // namespace
 
 std::size_t number_bytes(char kind) {
@@ -230,6 +467,14 @@ void RecordReader::close() {
 File RecordReader::finish() {
     if (inside()) fail("the file ends inside a record");
     return std::move(file_);
+}
+
+File read_binary(std::string_view bytes) {
+    return BinaryRecords(bytes).read();
+}
+
+File read_text(std::string_view text) {
+    return TextRecords(text).read();
 }
 
 }  // namespace tendril::app::fbx

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/io/character/fbx/body.hpp"
-#include "app/io/character/fbx/objects.hpp"
 #include "app/io/character/fbx/record.hpp"
 #include "app/io/character/skin.hpp"
 

@@ -1,11 +1,13 @@
-// Moves a character's attachments with it.
+// Moves a character's attachments with it, and turns them into nodes for an export.
 #pragma once
 
 #include <tendril/rope/workspace.hpp>
 
 #include "app/document/command.hpp"
+#include "app/io/character/gltf_write.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 
 namespace tendril::app {
 
@@ -31,5 +33,32 @@ Command carrying(Command command);
 
 /// Call after the character was scaled by `scale`.
 void remake_attachments(Workspace& workspace, double scale);
+
+/// What a character wears and holds, as nodes for an export: each strand, and each column of a cloth, is a
+/// chain of nodes through its particles; the held object is one node.
+class WornMotion {
+  public:
+    /// Puts everything on anew at the pose that the clip starts with, and lets it hang there.
+    WornMotion(const HumanoidPart& part, Solvers& solvers, const ShownPose& start, rope::Workspace& ropes);
+    const Worn& worn() const { return worn_; }
+    void advance(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown, double seconds);
+    /// The local transforms of its nodes.
+    void pose(const ShownPose& shown, std::span<rig::Transform> nodes) const;
+
+  private:
+    struct Chain {
+        std::size_t node = 0, count = 0;  ///< its nodes, from the first of `worn_`
+        std::size_t first = 0, step = 1;  ///< its particles, in the world
+        std::size_t on = 0;               ///< the character's node
+    };
+    void add(const Attachment& attachment, const HumanoidPart& part, const Wearer& wearer);
+    void add_held(const HumanoidPart& part, const ShownPose& start);
+
+    Worn worn_;
+    Attachments attachments_;
+    rope::Workspace& ropes_;
+    std::vector<Chain> chains_;
+    std::optional<std::size_t> held_by_{};  ///< the node above the held object, which is the last of all
+};
 
 }  // namespace tendril::app

@@ -13,7 +13,7 @@
 
 #include "app/fields/fields.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
-#include "app/labs/humanoid/ik/ground.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/kit/named_world.hpp"
 
 namespace tendril::app {

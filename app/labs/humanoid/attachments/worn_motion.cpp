@@ -1,4 +1,3 @@
-#include "app/labs/humanoid/attachments/worn_motion.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

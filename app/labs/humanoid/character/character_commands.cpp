@@ -7,9 +7,9 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/text.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
-#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/draw.hpp"
@@ -90,6 +90,21 @@ void forget(Workspace& workspace, const Arguments&) {
         throw std::invalid_argument("no map is kept for the character's node names");
 }
 
+/// Keeps a correction, if the window keeps things. Reports errors as a toast only.
+void keep_correction(Workspace& workspace) {
+    if (!workspace.keeps || workspace.config.empty()) return;
+    const HumanoidPart& part = humanoid_part(workspace);
+    try {
+        // A map as matched need not be kept.
+        const SavedMap matched = saved_map(part.loaded->matched, part.skeleton());
+        if (!bones_that_differ(matched, part).empty()) return keep(workspace);
+        humanoid_runtime(workspace).kept_maps.forget();
+        forget_kept_map(workspace.config, part.skeleton());
+    } catch (const std::exception& error) {
+        workspace.toast(std::string("The bone map is not kept: ") + error.what(), ToastKind::Refusal);
+    }
+}
+
 }  // namespace
 
 void KeptMaps::look(const Workspace& workspace) {
@@ -128,20 +143,6 @@ std::vector<Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& par
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (map.bones[i] != now.bones[i]) bones.push_back(static_cast<Bone>(i));
     return bones;
-}
-
-void keep_correction(Workspace& workspace) {
-    if (!workspace.keeps || workspace.config.empty()) return;
-    const HumanoidPart& part = humanoid_part(workspace);
-    try {
-        // A map as matched need not be kept.
-        const SavedMap matched = saved_map(part.loaded->matched, part.skeleton());
-        if (!bones_that_differ(matched, part).empty()) return keep(workspace);
-        humanoid_runtime(workspace).kept_maps.forget();
-        forget_kept_map(workspace.config, part.skeleton());
-    } catch (const std::exception& error) {
-        workspace.toast(std::string("The bone map is not kept: ") + error.what(), ToastKind::Refusal);
-    }
 }
 
 Command keeping(Command command) {

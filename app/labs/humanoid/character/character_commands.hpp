@@ -34,7 +34,5 @@ class KeptMaps {
 
 /// The bones that `map` assigns to other nodes than the character does now.
 std::vector<humanoid::Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& part);
-/// Keeps a correction, if the window keeps things. Reports errors as a toast only.
-void keep_correction(Workspace& workspace);
 
 }  // namespace tendril::app

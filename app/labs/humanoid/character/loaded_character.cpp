@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/stick_figure.hpp"
 
 namespace tendril::app {

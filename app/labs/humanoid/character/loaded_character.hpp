@@ -17,7 +17,6 @@
 #include "app/document/outside_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/io/character/character.hpp"
-#include "app/io/character/progress.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril::app {

@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
-#include "app/labs/humanoid/attachments/worn_motion.hpp"
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

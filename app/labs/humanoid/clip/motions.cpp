@@ -1,4 +1,4 @@
-#include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -6,14 +6,13 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/io/character/retargeted_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,4 @@
-#include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
 
 #include <imgui.h>
 #include <algorithm>

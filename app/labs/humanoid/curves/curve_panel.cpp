@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/curves/curves.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -12,7 +12,6 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {

@@ -28,7 +28,6 @@ void drag_hold(const HoldSetting& setting, const ShownPose& shown, const Handle:
 /// Whether the object is off its requested pose, and whether a hand is on its grip, up to reported amounts:
 /// half a millimetre, half a degree. HoldReport::closed() is stricter.
 bool gives_way(const humanoid::HoldReport& report);
-bool is_closed(const humanoid::GripReport& grip);
 
 /// "The wheel gives way by 12 cm", and why: "The left arm is straight."
 Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report);

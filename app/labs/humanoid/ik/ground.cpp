@@ -1,4 +1,4 @@
-#include "app/labs/humanoid/ik/ground.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"
@@ -17,8 +17,7 @@
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
-#include "app/widgets/lists.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

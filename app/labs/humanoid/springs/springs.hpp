@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <tendril/humanoid/spring_chain.hpp>
 #include <vector>
@@ -25,16 +24,9 @@ struct SpringSetting {
     bool operator==(const SpringSetting&) const = default;
 };
 
-/// The index of the part's spring that turns the node; empty if none does.
-std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node);
-/// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
-/// no parent. Empty if there can be one, provided that the node has some length.
-std::string why_no_spring(const HumanoidPart& part, std::size_t node);
 inline double max_hit_radius() {
     return field_of<&humanoid::SpringOptions::hit_radius>().range.high;
 }
-/// The setting with which a spring on the node begins.
-SpringSetting usual_spring(const HumanoidPart& part, std::size_t node);
 /// Puts the springs of the character's file on it, but for those that are not possible.
 void take_springs(HumanoidPart& part);
 /// The selected nodes that can have a spring, without descendants of one another.

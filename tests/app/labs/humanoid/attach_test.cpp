@@ -2,7 +2,7 @@
 #include <fstream>
 #include <random>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"

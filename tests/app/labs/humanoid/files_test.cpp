@@ -2,9 +2,9 @@
 #include <fstream>
 #include <tuple>
 
+#include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
-#include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"

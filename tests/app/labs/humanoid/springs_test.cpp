@@ -1,5 +1,5 @@
 // Springs on a character's nodes: they trail its motion, and are values of the document like everything else.
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/io/posed.hpp"

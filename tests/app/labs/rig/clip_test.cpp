@@ -2,7 +2,7 @@
 #include <random>
 #include <tendril/rig/explain.hpp>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/character.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
