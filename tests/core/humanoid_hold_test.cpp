@@ -145,7 +145,7 @@ TEST(HumanoidHold, ReachesAPoseThatIsPossible) {
 double distance_from(const ObjectPose& asked, const ObjectPose& pose) {
     const glm::dquat turn = asked.rotation * glm::inverse(pose.rotation);
     const double angle = 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
-    return std::hypot(glm::distance(asked.position, pose.position), HoldOptions{}.turn_length * angle);
+    return std::hypot(glm::distance(asked.position, pose.position), 0.3 * angle);
 }
 
 /// Free arms hold a pose if both hands are within reach of their shoulders. Random search, narrowing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "tendril/humanoid/t_pose.hpp"
 
@@ -27,6 +28,10 @@ inline std::optional<Bone> limb_child(Bone bone) noexcept {
     }
     return std::nullopt;
 }
+
+/// The figure's height at rest, told from hips to head plus a leg: 1 for 1.8 m, where these measure 1.45 m,
+/// or if they have no length.
+double size_of(const BoneMap& map, std::span<const Placement> rest) noexcept;
 
 /// Where a bone points in a T-pose.
 inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {

@@ -155,6 +155,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
     work->saved_turns.resize(work->links.size());
     work->twist = TwistNodes::find(skeleton, map);
     find_tips(*work, skeleton);
+    work->size = detail::size_of(map, work->placements);
     if (const Expected<Masses> masses = find_masses(skeleton, map)) {
         work->soles = *find_soles(skeleton, map);
         for (const MassPoint& each : masses->points)

@@ -53,8 +53,8 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
                                         const glm::dquat& above) const noexcept {
     Link link = end_of(goal.effector);
     link.turn = math::compose(conjugate(above), rotation_of_end(goal, link));
-    clamp_turn(link);
-    FootPlace place{link.turn, goal.position, {}, clip_heights_[side]};
+    const bool tilted = clamp_turn(link, 0.0f);
+    FootPlace place{link.turn, goal.position, {}, clip_heights_[side], tilted};
     const glm::dquat turn = math::compose(math::compose(above, link.turn), conjugate(link.start));
     const SolePoints& clip = clip_soles_[side];
     const glm::dvec3& was = work_.placements[link.node].position;
@@ -104,6 +104,7 @@ void BodySolve::roll_feet() noexcept {
         goal.position = place.goal;
         soles_[*side] = place.sole;
         heights_[*side] = place.heights;
+        tilted_[*side] = place.tilted;
         foot_target_ = foot_target_ || goal.target;
     }
     work_.place_links(shift_);
@@ -197,15 +198,21 @@ void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
     };
     glm::dvec3 by_move{0.0}, by_turn{0.0};
     const double distance = step * work_.soles->leg;
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 unit{0.0};
-        unit[axis] = 1.0;
-        const FootPlace turned = foot_at(goal, side, math::compose(rotation_about(unit, step), above));
-        by_turn[axis] = moved_by(turned.sole, turned.heights) / step;
-        if (!goal.target) continue;
+    // A mirrored foot is tried the mirrored way.
+    const glm::dvec3 &ahead = work_.soles->forward, left{ahead.z, 0.0, -ahead.x}, up{0.0, 1.0, 0.0};
+    const double sign = side == 0 ? 1.0 : -1.0;
+    for (const glm::dvec3& axis : {left, times(up, sign), times(ahead, sign)}) {
+        const FootPlace turned = foot_at(goal, side, math::compose(rotation_about(axis, step), above));
+        if (!turned.tilted && !tilted_[side]) continue;
+        by_turn = plus(by_turn, times(axis, moved_by(turned.sole, turned.heights) / step));
+    }
+    for (const glm::dvec3& axis : {times(left, sign), up, ahead}) {
+        if (!goal.target) break;
         const SolePoints& sole = soles_[side];
-        const glm::dvec3 by = times(unit, distance);
-        by_move[axis] = moved_by({plus(sole.heel, by), plus(sole.toe, by)}, heights_[side]) / distance;
+        const glm::dvec3 by = times(axis, distance);
+        by_move =
+            plus(by_move,
+                 times(axis, moved_by({plus(sole.heel, by), plus(sole.toe, by)}, heights_[side]) / distance));
     }
     Row& balance = rows_[row_count_];
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
@@ -233,7 +240,7 @@ bool BodySolve::update_balance() noexcept {
     const glm::dvec3 then = plus(centre_, moved), nearest = safe_.nearest(then);
     const glm::dvec3 offset = level_part(minus(then, nearest));
     const double distance = length(offset);
-    if (!(distance > allowed_ + 1e-9)) return false;
+    if (!(distance > allowed_ + 1e-9 * work_.size)) return false;
     const glm::dvec3 out = times(offset, 1.0 / distance);
     add_balance_row(out, dot(level_part(minus(centre_, nearest)), out) - allowed_);
     return true;

@@ -21,7 +21,7 @@ void BodySolve::find_contacts() noexcept {
         const glm::dvec3 offset = minus(at.first, at.second);
         const double distance = length(offset);
         Contact contact{&pair, at.first, at.second, {0.0, 0.0, 1.0}, distance - pair.min_distance};
-        if (contact.gap > contact_range) continue;
+        if (contact.gap > contact_range * work_.size) continue;
         if (distance > 1e-9) contact.normal = times(offset, 1.0 / distance);
         if (contact_count_ < max_contacts) {
             contacts_[contact_count_++] = contact;
@@ -81,7 +81,7 @@ bool BodySolve::update_contacts() noexcept {
         double gap = contact.gap;
         for (std::size_t i = 0; i < work_.links.size(); ++i)
             if (work_.links[i].effectors != 0) gap += dot(contact_column(contact, i), steps_[i].turn);
-        if (gap >= -1e-9) continue;
+        if (gap >= -1e-9 * work_.size) continue;
         add_contact_row(contact);
         changed = true;
     }

@@ -36,31 +36,34 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     double cost = measure();
     const double moved = goals_moved(state);
     TrustRegion trust;
-    Relaxation relaxation(moved);
+    const double size = work_.size;
+    Relaxation relaxation(moved / size);
     for (std::size_t k = 0; k < count_; ++k) goals_[k].stalled = state.left[goals_[k].effector];
-    const double limit = std::min(std::max(travel_per_metre * moved, travel_kept * state.pace), max_travel);
+    const double limit =
+        std::min(std::max(travel_per_metre * moved, travel_kept * state.pace), max_travel * size);
     while (result.iterations < options_.max_iterations) {
         ++result.iterations;
-        const double damping = trust.damping(std::sqrt(2.0 * cost));
+        const double damping = trust.damping(std::sqrt(2.0 * cost) / size);
         find_step(damping, relaxation);
-        const double size = step_size();
-        if (size < options_.tolerance) {
+        const double step = step_size();
+        if (step < options_.tolerance) {
             result.settled = true;
             break;
         }
         save_turns();
         std::array<double, effector_count> before{};
         for (std::size_t k = 0; k < count_; ++k) before[k] = length(goals_[k].error);
-        const double part = std::min(1.0, max_step_turn / size), travelled = travel();
+        const double part = std::min(1.0, max_step_turn / step), travelled = travel();
         apply(part);
         const double next = measure();
         // The turn back is exact only to first order: its square may cost as much.
-        if (next <= cost + relaxation_ * relaxation_ * relaxation_ * relaxation_) {
+        if (next <= cost + size * size * relaxation_ * relaxation_ * relaxation_ * relaxation_) {
             if (const double now = travel(); now > limit) {
                 cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
                 break;
             }
-            result.settled = next > min_stalled_cost && std::abs(cost - next) < stalled_share * cost;
+            result.settled =
+                next > min_stalled_cost * size * size && std::abs(cost - next) < stalled_share * cost;
             cost = next;
             trust.succeeded();
             relaxation.succeeded(part * relaxation_);
@@ -168,19 +171,17 @@ void BodySolve::set_goals() noexcept {
             if (each.end == work_.ends[index]) limb = &each;
         goals_[count_++] = {index, position, weight, target, limb};
     };
-    unsigned seen = 0;
-    for (const BodyTarget& target : targets_) {
-        if (!(target.weight > 0.0)) continue;
-        add(target.effector, target.position, target.weight, &target);
-        seen |= 1u << static_cast<unsigned>(target.effector);
-    }
-    for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot}) {
-        if (!options_.feet_stay || (seen >> static_cast<unsigned>(foot) & 1u)) continue;
-        const Link& link = end_of(static_cast<std::size_t>(foot));
-        const FootShift& shift = options_.feet[foot == Effector::LeftFoot ? 0 : 1];
-        glm::dvec3 at = work_.placements[link.node].position;
-        if (!(shift == FootShift())) at = plus(at, shift.stand), at.y += shift.lift;
-        add(foot, at, planted_foot_weight, nullptr);
+    for (std::size_t e = 0; e < effector_count; ++e) {  // whatever the order of the targets
+        const auto effector = static_cast<Effector>(e);
+        const auto target = std::ranges::find(targets_, effector, &BodyTarget::effector);
+        if (target != targets_.end() && target->weight > 0.0) {
+            add(effector, target->position, target->weight, &*target);
+        } else if (options_.feet_stay && effector >= Effector::LeftFoot) {
+            const FootShift& shift = options_.feet[effector == Effector::LeftFoot ? 0 : 1];
+            glm::dvec3 at = clip_[e];
+            if (!(shift == FootShift())) at = plus(at, shift.stand), at.y += shift.lift;
+            add(effector, at, planted_foot_weight, nullptr);
+        }
     }
 }
 

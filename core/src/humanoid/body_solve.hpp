@@ -65,6 +65,7 @@ class BodySolve {
         glm::dvec3 goal;  ///< for a foot that stays: moves along as it rolls
         SolePoints sole;
         SoleHeights heights;
+        bool tilted;  ///< by the ankle's limit
     };
 
     void set_goals() noexcept;
@@ -144,6 +145,7 @@ class BodySolve {
     std::array<SoleHeights, 2> clip_heights_{};
     std::array<SolePoints, 2> soles_{};  ///< in the pose being solved, as are their heights
     std::array<SoleHeights, 2> heights_{};
+    std::array<bool, 2> tilted_{};        ///< FootPlace::tilted
     bool foot_target_ = false;            ///< a foot has a target
     Support safe_{};                      ///< where the centre of mass should be
     double allowed_ = 0.0;                ///< the clip's distance outside of it, metres

@@ -44,7 +44,7 @@ glm::dvec3 BodySolve::allowed_torque(std::size_t link, const glm::dvec3& torque)
 
 void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept {
     double share = relaxation.share(damping);
-    relaxation_ = length(shift_) * share;
+    relaxation_ = length(shift_) / work_.size * share;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
         steps_[i].relaxing = logarithm(math::compose(link.clip_turn, conjugate(link.turn)));
@@ -55,6 +55,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
         share *= relaxation.budget() / relaxation_;
         relaxation_ = relaxation.budget();
     }
+    const double stiff = damping * work_.size * work_.size;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
         Step& step = steps_[i];
@@ -64,7 +65,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
                                       : work_.links[static_cast<std::size_t>(link.parent)].rotation;
         step.freedom.begin(link, before);
         if (link.effectors == 0) continue;
-        double stiffness = damping / link.mobility;
+        double stiffness = stiff / link.mobility;
         for (std::size_t k = 0; k < count_; ++k) {
             const Goal& goal = goals_[k];
             if (!(link.effectors >> goal.effector & 1u)) continue;
@@ -73,7 +74,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
             stiffness += goal.weight * residual_stiffness * std::max(dot(goal.stalled, arm), 0.0);
         }
         step.compliance = 1.0 / stiffness;
-        step.relaxing = rotated(before, times(step.relaxing, share * damping / (link.mobility * stiffness)));
+        step.relaxing = rotated(before, times(step.relaxing, share * stiff / (link.mobility * stiffness)));
         for (std::size_t k = 0; k < count_; ++k) {
             const Goal& goal = goals_[k];
             if (!(link.effectors >> goal.effector & 1u)) continue;
@@ -165,7 +166,7 @@ bool BodySolve::block_limits() noexcept {
 }
 
 double BodySolve::step_size() const noexcept {
-    double size = length(shift_step_);
+    double size = length(shift_step_) / work_.size;
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         if (work_.links[i].effectors != 0) size = std::max(size, length(steps_[i].turn));
     return size;

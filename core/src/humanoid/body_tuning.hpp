@@ -1,6 +1,7 @@
 // The constants of a body's solve, tuned by trial on real characters. The behaviour that each protects is
 // tested in tests/core/humanoid_body*_test.cpp and humanoid_contact_test.cpp. All are per solve, not per
-// second: a solve belongs to a frame. Not installed.
+// second: a solve belongs to a frame. Metres are those of a figure of 1.8 m: a solve scales them by
+// Body::Work::size. Not installed.
 #pragma once
 
 namespace tendril::humanoid::detail {
@@ -67,7 +68,7 @@ inline constexpr int max_travel_cuts = 4;
 /// Share of a contact's deflection that a limb without a target keeps in the next solve.
 inline constexpr double deflection_kept = 0.7;
 
-/// Sets the damping of the next step.
+/// Sets the damping of the next step, for a residual scaled to 1.8 m.
 class TrustRegion {
   public:
     double damping(double residual) const noexcept {

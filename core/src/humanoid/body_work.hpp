@@ -55,8 +55,10 @@ struct BodyLimb {
         const double value = angle * (linear - quadratic * angle);
         return angle > 0.0 && value > 0.0 ? value : 0.0;
     }
+    /// Rounding may turn a straight limb the other way, but does not decide whether it bends.
     double slope(double angle) const noexcept {
-        return angle >= 0.0 && quadratic * angle < linear ? linear - 2.0 * quadratic * angle : 0.0;
+        constexpr double straight_turn = 1e-9;  // radians
+        return angle > -straight_turn && quadratic * angle < linear ? linear - 2.0 * quadratic * angle : 0.0;
     }
 };
 
@@ -96,6 +98,7 @@ struct Body::Work {
     std::vector<std::int32_t> parents;  ///< parent of each node
     std::vector<std::size_t> needed;    ///< mapped bones and all nodes above them, parents first
     std::vector<Bone> bones;
+    double size = 1.0;  ///< detail::size_of()
     std::vector<detail::Link> links;
     std::vector<detail::BodyLimb> limbs;
     std::vector<detail::Tip> tips;

@@ -17,10 +17,7 @@ class DefaultCapsules {
   public:
     DefaultCapsules(const Skeleton& skeleton, const BoneMap& map) : map_(map), placements_(skeleton.size()) {
         place(skeleton, rest_pose(skeleton), placements_);
-        // In a figure of 1.8 m, hips to head plus one leg measure 1.45 m.
-        size_ =
-            (way({Bone::Hips, Bone::Head}) + way({Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot})) /
-            1.45;
+        size_ = detail::size_of(map, placements_);
     }
 
     std::vector<BodyCapsule> all() {
@@ -41,16 +38,6 @@ class DefaultCapsules {
   private:
     bool has(Bone bone) const { return map_[bone].node >= 0; }
     const Placement& at(Bone bone) const { return placements_[static_cast<std::size_t>(map_[bone].node)]; }
-    double way(std::initializer_list<Bone> bones) const {
-        double sum = 0.0;
-        std::optional<Bone> last;
-        for (const Bone bone : bones) {
-            if (!has(bone)) continue;
-            if (last) sum += length(minus(at(bone).position, at(*last).position));
-            last = bone;
-        }
-        return sum;
-    }
     void limb(Bone upper, double radius, double lower_radius) {
         const Bone lower = *detail::limb_child(upper);
         add(upper, lower, radius);
@@ -82,6 +69,20 @@ class DefaultCapsules {
 };
 
 }  // namespace
+
+double detail::size_of(const BoneMap& map, std::span<const Placement> rest) noexcept {
+    const auto way = [&](Bone from, Bone to) {
+        const std::int32_t a = map[from].node, b = map[to].node;
+        if (a < 0 || b < 0) return 0.0;
+        return length(
+            minus(rest[static_cast<std::size_t>(b)].position, rest[static_cast<std::size_t>(a)].position));
+    };
+    const double left = way(Bone::LeftUpperLeg, Bone::LeftLowerLeg) + way(Bone::LeftLowerLeg, Bone::LeftFoot),
+                 right = way(Bone::RightUpperLeg, Bone::RightLowerLeg) +
+                         way(Bone::RightLowerLeg, Bone::RightFoot);
+    const double size = (way(Bone::Hips, Bone::Head) + 0.5 * (left + right)) / 1.45;
+    return size > 1e-9 ? size : 1.0;
+}
 
 std::vector<BodyCapsule> default_capsules(const Skeleton& skeleton, const BoneMap& map) {
     return DefaultCapsules(skeleton, detail::map_or_none(map, skeleton)).all();

@@ -47,7 +47,11 @@ constexpr double straight_slack = 0.03;
 }  // namespace
 
 void HoldSolve::find_arms() noexcept {
-    for (const Grip& grip : object_.grips) {
+    for (const Effector hand :
+         {Effector::LeftHand, Effector::RightHand}) {  // whatever the order of the grips
+        const auto found = std::ranges::find(object_.grips, hand, &Grip::hand);
+        if (found == object_.grips.end()) continue;
+        const Grip& grip = *found;
         Arm& arm = arms_[arm_count_];
         arm.grip = &grip;
         arm.end = static_cast<std::size_t>(work_.ends[static_cast<std::size_t>(grip.hand)]);
@@ -167,25 +171,25 @@ void HoldSolve::measure() noexcept {
 double HoldSolve::max_gap() const noexcept {
     double largest = 0.0;
     for (std::size_t i = 0; i < arm_count_; ++i)
-        largest = std::max({largest, length(arms_[i].gap), options_.turn_length * length(arms_[i].turn_gap)});
-    return largest;
+        largest = std::max({largest, length(arms_[i].gap), turn_length_ * length(arms_[i].turn_gap)});
+    return largest / work_.size;
 }
 
 glm::dvec3 HoldSolve::column(const Row& row, const Joint& joint) const noexcept {
     if (joint.arm != row.arm) return glm::dvec3(0.0);
-    if (row.angular) return times(row.along, options_.turn_length);
+    if (row.angular) return times(row.along, turn_length_);
     return cross(minus(link(arms_[row.arm].end).position, link(joint.link).position), row.along);
 }
 
 glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
-    if (row.angular) return times(row.along, -options_.turn_length);
+    if (row.angular) return times(row.along, -turn_length_);
     return cross(row.along, arms_[row.arm].from);
 }
 
 /// Finds a step that closes the grips and moves the object towards its requested pose. Returns its size,
 /// radians and metres. Sets `failed_` if there is none.
 double HoldSolve::find_step() noexcept {
-    double object_stiffness = options_.turn_length * options_.turn_length;
+    double object_stiffness = turn_length_ * turn_length_;
     for (std::size_t i = 0; i < arm_count_; ++i)
         object_stiffness += force_stiffness * std::max(-dot(arms_[i].force, arms_[i].from), 0.0);
     object_compliance_ = 1.0 / object_stiffness;
@@ -196,11 +200,12 @@ double HoldSolve::find_step() noexcept {
         joint.freedom.begin(at, before(at));
         joint.held = glm::dvec3(0.0);
         const double outward = dot(arm.force, minus(link(arm.end).position, at.position));
-        joint.compliance = 1.0 / (damping_ / at.mobility + force_stiffness * std::max(outward, 0.0));
+        joint.compliance = 1.0 / (damping_ * work_.size * work_.size / at.mobility +
+                                  force_stiffness * std::max(outward, 0.0));
     }
     failed_ = !solve_rows();
     for (int i = 0; i < max_hold_changes && !failed_ && block(); ++i) failed_ = !solve_rows();
-    double size = std::max(length(shift_), length(turn_));
+    double size = std::max(length(shift_) / work_.size, length(turn_));
     for (std::size_t i = 0; i < joint_count_; ++i) size = std::max(size, length(joints_[i].turn));
     return size;
 }
@@ -211,9 +216,9 @@ bool HoldSolve::solve_rows() noexcept {
     e.count = row_count_;
     const glm::dvec3 move = times(minus(target_.position, pose_.position), pull_);
     const glm::dvec3 turn = times(logarithm(math::compose(target_.rotation, conjugate(pose_.rotation))),
-                                  pull_ * options_.turn_length * options_.turn_length * object_compliance_);
+                                  pull_ * turn_length_ * turn_length_ * object_compliance_);
     // Where the grips cannot close, forces kept in full would grow without bound.
-    const double max_force = max_grip_force + max_grip_force * length(move);
+    const double max_force = max_grip_force * (work_.size + length(move));
     const auto clamped = [](const glm::dvec3& value, double largest) {
         const double size = length(value);
         return size > largest ? times(value, largest / size) : value;
@@ -222,8 +227,8 @@ bool HoldSolve::solve_rows() noexcept {
         const Row& row = rows_[r];
         const Arm& arm = arms_[row.arm];
         const double size = row_length(row);
-        const glm::dvec3 force = row.angular ? clamped(arm.torque, options_.turn_length * max_force)
-                                             : clamped(arm.force, max_force);
+        const glm::dvec3 force =
+            row.angular ? clamped(arm.torque, turn_length_ * max_force) : clamped(arm.force, max_force);
         const glm::dvec3 turned = object_column(row);
         e.b[r] = size * dot(row.along, row.angular ? arm.turn_gap : arm.gap) - dot(turned, turn) +
                  grip_compliance * dot(row.along, force) / size;
@@ -427,7 +432,7 @@ void HoldSolve::write_report(HoldReport& report, HoldState& state) noexcept {
         const Arm& arm = arms_[joint.arm];
         const glm::dvec3 lever = minus(link(arm.end).position, link(joint.link).position);
         const glm::dvec3 torque = plus(cross(lever, arm.pull_force), arm.pull_torque);
-        const auto direction = direction_of(torque, min_reported_force);
+        const auto direction = direction_of(torque, min_reported_force * work_.size * work_.size);
         glm::dquat there;
         report.body.at_limit[static_cast<std::size_t>(link(joint.link).bone)] =
             direction &&
@@ -445,7 +450,7 @@ void HoldSolve::write_report(HoldReport& report, HoldState& state) noexcept {
             const Link& upper = link(static_cast<std::size_t>(arm.limb->upper));
             const glm::dvec3 way = minus(link(arm.end).position, upper.position);
             grip.straight = bend(arm, about) < arm.min_bend + straight_slack &&
-                            dot(arm.pull_force, way) > min_reported_force * length(way);
+                            dot(arm.pull_force, way) > min_reported_force * work_.size * length(way);
             now.shoulders[hand] = upper.position;
             now.elbows[hand] = link(static_cast<std::size_t>(arm.limb->lower)).position;
         }
@@ -457,7 +462,7 @@ void HoldSolve::write_report(HoldReport& report, HoldState& state) noexcept {
         travel = std::max({travel, length(minus(now.elbows[hand], state.elbows[hand])),
                            length(minus(now.hands[hand], state.hands[hand]))});
     }
-    report.jumped = travel > jump_per_metre * cause + jump_slack;
+    report.jumped = travel > jump_per_metre * cause + jump_slack * work_.size;
     state = now;
 }
 

@@ -9,11 +9,18 @@
 
 namespace tendril::humanoid::detail {
 
+/// HoldOptions::turn_length of a figure of 1.8 m, metres.
+inline constexpr double default_turn_length = 0.3;
+
 /// Closes the grips with the arms and the object, once the body has reached for them.
 class HoldSolve {
   public:
     HoldSolve(Body& body, const HeldObject& object, const HoldOptions& options) noexcept
-        : work_(*body.work_), object_(object), options_(options), pose_(object.asked) {
+        : work_(*body.work_),
+          object_(object),
+          options_(options),
+          turn_length_(options.turn_length.value_or(default_turn_length * body.work_->size)),
+          pose_(object.asked) {
         pose_.rotation = rig::normalised(pose_.rotation);
         target_ = pose_;
     }
@@ -47,7 +54,7 @@ class HoldSolve {
     /// The derivative of a row with respect to a turn of the joint, or of the object.
     glm::dvec3 column(const Row& row, const Joint& joint) const noexcept;
     glm::dvec3 object_column(const Row& row) const noexcept;
-    double row_length(const Row& row) const noexcept { return row.angular ? options_.turn_length : 1.0; }
+    double row_length(const Row& row) const noexcept { return row.angular ? turn_length_ : 1.0; }
 
     Link& link(std::size_t index) const noexcept { return work_.links[index]; }
     /// The rotation of the parent link.
@@ -78,6 +85,7 @@ class HoldSolve {
     Body::Work& work_;
     const HeldObject& object_;
     const HoldOptions& options_;
+    double turn_length_;  ///< metres
     ObjectPose pose_, target_;
     std::array<Arm, 2> arms_{};
     std::size_t arm_count_ = 0;

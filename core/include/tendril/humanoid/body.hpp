@@ -18,6 +18,9 @@
 // The equations have one row per target coordinate, not one column per rotation. A joint at its limit loses
 // the direction that leads out of it (active set).
 //
+// A figure of any size takes the same pose, scaled, a mirrored one the mirrored pose, except for rounding.
+// The order of the targets does not matter.
+//
 // An almost straight limb would have to bend infinitely fast to follow a target that approaches at constant
 // speed. There the solver overestimates the bend slightly and stops up to 0.7 mm short (of a 1.8 m body), so
 // that elbows and knees move at most some 13 times as fast as the target.
@@ -68,8 +71,9 @@ struct FootShift {
 
 struct BodyOptions {
     int max_iterations = 20;  ///< 1 to 1000
-    double tolerance = 2e-6;  ///< radians (metres for the hips), over 0 to 1; a smaller step ends the solve
-    bool feet_stay = true;    ///< feet without a target stay where the clip has them
+    /// A smaller step ends the solve: radians (for the hips metres of a figure of 1.8 m), over 0 to 1.
+    double tolerance = 2e-6;
+    bool feet_stay = true;  ///< feet without a target stay where the clip has them
     /// Share of a hand's twist that the lower arm takes, 0 to 1. Twist nodes (twist.hpp) then spread it along
     /// the arm.
     double twist_share = 0.5;

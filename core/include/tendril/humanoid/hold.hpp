@@ -72,8 +72,9 @@ struct HeldObject {
 
 struct HoldOptions {
     BodyOptions body{};
-    /// Turning the object by a radian counts as much as moving it this far: metres, 0.05 to 1e3.
-    double turn_length = 0.3;
+    /// Turning the object by a radian counts as much as moving it this far: metres, 0.05 to 1e3. Unset: a
+    /// sixth of the figure's height, 0.3 m for 1.8 m.
+    std::optional<double> turn_length{};
     int max_iterations = 80;  ///< 1 to 1000; up to 20 more close the grips if it has not settled
 };
 
