@@ -1,38 +1,18 @@
 // Every row of every table of the library.
-#include <tendril/chain/chain.hpp>
-#include <tendril/humanoid/feet.hpp>
-#include <tendril/humanoid/footsteps.hpp>
-#include <tendril/humanoid/hands.hpp>
-#include <tendril/humanoid/hold.hpp>
-#include <tendril/humanoid/lint.hpp>
-#include <tendril/humanoid/look_at.hpp>
-#include <tendril/humanoid/spring_chain.hpp>
-#include <tendril/ik/active_limit.hpp>
-#include <tendril/ik/curve.hpp>
-#include <tendril/ik/incident.hpp>
-#include <tendril/ik/many.hpp>
-#include <tendril/ik/mechanisms.hpp>
-#include <tendril/ik/options.hpp>
-#include <tendril/ik/state.hpp>
-#include <tendril/ik/tree.hpp>
-#include <tendril/ik/two_bone.hpp>
-#include <tendril/rig/aim.hpp>
-#include <tendril/rig/backward.hpp>
-#include <tendril/rig/collect.hpp>
-#include <tendril/rig/definition.hpp>
-#include <tendril/rig/parent_constraint.hpp>
-#include <tendril/rig/unit.hpp>
-#include <tendril/rope/body.hpp>
-#include <tendril/rope/collider.hpp>
-#include <tendril/rope/hair_roots.hpp>
-#include <tendril/rope/state.hpp>
-#include <tendril/signal/filter.hpp>
+#include <tendril/tendril.hpp>
 
 #include "field_values.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
+
+struct Untold {};
+template <class Struct>
+concept HasTable = requires {
+    fields<Struct>();
+};
+static_assert(HasTable<rope::Settings> && !HasTable<Untold>, "a missing table does not compile");
 
 struct Table {
     std::string name;

@@ -198,6 +198,9 @@ TEST(RopeEdit, OldHandlesFindNothing) {
     EXPECT_EQ(third.index, first.index);
     EXPECT_FALSE(world.find(first));
     EXPECT_EQ(world.remove(first).code(), ErrorCode::OutOfRange);
+    EXPECT_STREQ(world.remove(first).message(), "remove: body was removed (slot 0)");
+    EXPECT_STREQ(world.move({}, {}).message(), "move: body is an empty handle");
+    EXPECT_STREQ(world.untie({7, 1}).message(), "untie: tie is not a handle of this world (slot 7)");
     EXPECT_EQ(world.find(second)->first, 0u);
     EXPECT_EQ(world.find(third)->kind, Body::Kind::Cloth);
     // A copy knows the same handles; a restored state does not know handles created since.
@@ -212,6 +215,7 @@ TEST(RopeEdit, OldHandlesFindNothing) {
     allow(world.remove_collider(ball));
     EXPECT_TRUE(world.add_collider(Sphere{}));
     EXPECT_FALSE(world.find(ball));
+    EXPECT_STREQ(world.remove_collider(ball).message(), "remove_collider: collider was removed (slot 0)");
 }
 
 /// All materials of a body can change while it hangs.

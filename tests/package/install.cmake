@@ -8,7 +8,7 @@ file(RENAME ${work}/installed ${prefix})
 foreach(file IN ITEMS ${libdir}/libtendril_core.a ${libdir}/pkgconfig/tendril.pc ${libdir}/cmake/tendril/tendril-config.cmake
         ${libdir}/cmake/tendril/tendril-config-version.cmake ${libdir}/cmake/tendril/tendril_targets.cmake
         include/tendril/version.hpp include/tendril/chain/chain.hpp include/tendril/chain/segment.hpp
-        include/tendril/ik/solver.hpp include/tendril/ik/many.hpp)
+        include/tendril/ik/solver.hpp include/tendril/ik/many.hpp include/tendril/tendril.hpp)
     if(NOT EXISTS ${prefix}/${file})
         message(FATAL_ERROR "${file} was not installed")
     endif()

@@ -213,9 +213,10 @@ struct Field {
     }
 };
 
-/// The table of a struct, in the order of its members; declared next to the struct.
+/// The table of a struct, in the order of its members; declared next to the struct. A struct without one does
+/// not compile here.
 template <class Struct>
-std::span<const Field> fields() noexcept;
+std::span<const Field> fields() noexcept = delete;
 template <class Struct>
 bool Field::holds() const noexcept {
     return type == FieldType::Struct && kinds[0].table == fields<Struct>;

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "tendril/handle.hpp"
+
 namespace tendril::detail {
 namespace {
 
@@ -93,6 +95,18 @@ Result refused_count(std::string_view operation, const Argument& argument, std::
                      std::size_t wanted) noexcept {
     return Message(operation, ": ", argument, " must be ", Shown(wanted), " in number, got ", Shown(count))
         .as(ErrorCode::InvalidArgument);
+}
+
+Result refused_handle(std::string_view operation, const Argument& argument, std::uint32_t slot,
+                      std::uint32_t generation, std::uint32_t uses, std::string_view whole) noexcept {
+    if (slot == Handle<void>::none)
+        return Message(operation, ": ", argument, " is an empty handle").as(ErrorCode::OutOfRange);
+    const Shown number(static_cast<std::size_t>(slot));
+    if (generation <= uses)
+        return Message(operation, ": ", argument, " was removed (slot ", number, ")")
+            .as(ErrorCode::OutOfRange);
+    return Message(operation, ": ", argument, " is not a handle of this ", whole, " (slot ", number, ")")
+        .as(ErrorCode::OutOfRange);
 }
 
 Result moved_from(std::string_view operation, std::string_view what) noexcept {

@@ -84,6 +84,11 @@ Result refused_index(std::string_view operation, std::size_t index, std::size_t 
 Result refused_count(std::string_view operation, const Argument& argument, std::size_t count,
                      std::size_t wanted) noexcept;
 
+/// `remove: body was removed (slot 7)`, `... is an empty handle`, or `... is not a handle of this world (slot
+/// 7)`. `uses`: how often the slot was taken and freed; 0 if there is no such slot.
+Result refused_handle(std::string_view operation, const Argument& argument, std::uint32_t slot,
+                      std::uint32_t generation, std::uint32_t uses, std::string_view whole) noexcept;
+
 /// `solve: the solver has been moved from`
 Result moved_from(std::string_view operation, std::string_view what) noexcept;
 

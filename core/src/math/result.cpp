@@ -55,6 +55,10 @@ Result& Result::operator=(const Result& other) noexcept {
     return *this;
 }
 
+bool Result::operator==(const Result& other) const noexcept {
+    return code_ == other.code_ && std::strcmp(message_, other.message_) == 0;
+}
+
 namespace detail {
 
 void no_value(const char* message) noexcept {

@@ -9,6 +9,7 @@ namespace tendril::rig {
 
 using tendril::detail::no_value;
 using tendril::detail::refused;
+using tendril::detail::refused_handle;
 using tendril::detail::Shown;
 
 const char* name(Pending pending) noexcept {
@@ -25,10 +26,8 @@ ElementId Hierarchy::handle(Index index) const noexcept {
 
 Result Hierarchy::check(ElementId element, const char* operation, const char* argument) const noexcept {
     if (contains(element)) return {};
-    constexpr std::string_view wanted = "the handle of an existing element";
-    const Result words = element ? refused(operation, argument, wanted, Shown("slot", element.index))
-                                 : refused(operation, argument, wanted, "an empty handle");
-    return {ErrorCode::OutOfRange, words.message()};
+    const std::uint32_t uses = element.index < nodes_.size() ? nodes_[element.index].generation : 0;
+    return refused_handle(operation, argument, element.index, element.generation, uses, "hierarchy");
 }
 
 void Hierarchy::stop(const char* operation, ElementId element) const noexcept {

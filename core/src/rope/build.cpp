@@ -185,7 +185,7 @@ Result draft_hair(const State& state, const HairShape& shape, Draft& draft) {
     const std::size_t count = row * std::min(shape.roots.size(), max_particles);
     if (const Result full = check_fit(op, state, count); !full) return full;
     const Collider* holder = find_in(state.colliders, shape.attach);
-    if (shape.attach && holder == nullptr) return missing(op, "attach", "collider", shape.attach.index);
+    if (shape.attach && holder == nullptr) return missing(op, "attach", shape.attach, state);
 
     const double each = static_cast<double>(shape.length) / segments;
     draft.points.reserve(count);

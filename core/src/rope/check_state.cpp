@@ -156,7 +156,7 @@ Result check_pins(const State& state) {
             return refused(op, Argument("pins", i, "goal"), "finite", worst(pin.goal));
         if (const Result r = check_row(pin, "pins", i); !r) return r;
         if (pin.collider && find_in(state.colliders, pin.collider) == nullptr)
-            return missing(op, "the collider of a pin", "collider", pin.collider.index);
+            return missing(op, "the collider of a pin", pin.collider, state);
         next = pin.particle + 1;
     }
     return {};
@@ -190,7 +190,7 @@ Result check_collisions(const State& state) {
         const Collision& each = state.collisions[i];
         for (const BodyId id : {each.a, each.b}) {
             const Body* const body = find_in(state.bodies, id);
-            if (body == nullptr) return missing(op, "a body of a collision", "body", id.index);
+            if (body == nullptr) return missing(op, "a body of a collision", id, state);
             if (body->kind == Body::Kind::Hair)
                 return refused(op, Argument("collisions", i), "between ropes and cloth",
                                static_cast<std::size_t>(id.index));

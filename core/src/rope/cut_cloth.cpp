@@ -155,7 +155,7 @@ Edited split_pieces(State state, BodyId id) {
 
 Expected<Edited> part_body(const World& world, BodyId id) {
     const Body* const body = world.find(id);
-    if (body == nullptr) return detail::missing("part_body", "body", "body", id.index);
+    if (body == nullptr) return detail::missing("part_body", "body", id, world.state());
     if (body->kind == Body::Kind::Hair)
         return Result(ErrorCode::InvalidArgument, "only ropes and cloth come apart, not hair");
     std::vector<std::size_t> piece_of;
@@ -168,7 +168,7 @@ Expected<Edited> part_body(const World& world, BodyId id) {
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines) {
     const char* const op = "cut_cloth";
     const Body* const found = world.find(cloth);
-    if (found == nullptr) return detail::missing(op, "cloth", "body", cloth.index);
+    if (found == nullptr) return detail::missing(op, "cloth", cloth, world.state());
     if (found->kind != Body::Kind::Cloth)
         return Result(ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair");
     const Body& body = *found;

@@ -468,7 +468,7 @@ Resolution resolution(const Body& body) noexcept {
 Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
     const char* const op = "resample";
     const Body* const body = world.find(id);
-    if (body == nullptr) return detail::missing(op, "body", "body", id.index);
+    if (body == nullptr) return detail::missing(op, "body", id, world.state());
     const bool cloth = body->kind == Body::Kind::Cloth;
     const Resolution was = resolution(*body);
     const std::size_t others = world.size() - body->count;
@@ -508,7 +508,7 @@ Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
 
 Expected<Edited> reverse(const World& world, BodyId rope) {
     const Body* const body = world.find(rope);
-    if (body == nullptr) return detail::missing("reverse", "rope", "body", rope.index);
+    if (body == nullptr) return detail::missing("reverse", "rope", rope, world.state());
     if (body->kind != Body::Kind::Rope)
         return Result(ErrorCode::InvalidArgument, "only ropes have ends to swap, not cloth or hair");
     State state = world.state();

@@ -21,7 +21,7 @@ using tendril::detail::refused;
 
 Result World::set_radius(BodyId body, float metres) noexcept {
     Body* const changed = found(body);
-    if (changed == nullptr) return missing("set_radius", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_radius", "body", body, state_);
     const Result result = check_length("set_radius", "metres", metres);
     if (result) changed->radius = metres;
     return result;
@@ -29,7 +29,7 @@ Result World::set_radius(BodyId body, float metres) noexcept {
 
 Result World::set_friction(BodyId body, std::optional<float> friction) noexcept {
     Body* const changed = found(body);
-    if (changed == nullptr) return missing("set_friction", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_friction", "body", body, state_);
     if (friction && !(*friction >= 0.0f && static_cast<double>(*friction) <= max_friction))
         return refused("set_friction", "friction", "0 to 100", *friction);
     changed->friction = friction;
@@ -38,7 +38,7 @@ Result World::set_friction(BodyId body, std::optional<float> friction) noexcept 
 
 Result World::set_tear(BodyId body, float tear) noexcept {
     Body* const changed = found(body);
-    if (changed == nullptr) return missing("set_tear", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_tear", "body", body, state_);
     const Result result = check_length("set_tear", "tear", tear);
     if (result) changed->tear = tear;
     return result;
@@ -46,7 +46,7 @@ Result World::set_tear(BodyId body, float tear) noexcept {
 
 Result World::set_bending(BodyId rope, float stiffness) noexcept {
     Body* const changed = found(rope);
-    if (changed == nullptr) return missing("set_bending", "rope", "body", rope.index);
+    if (changed == nullptr) return missing("set_bending", "rope", rope, state_);
     if (changed->kind != Body::Kind::Rope)
         return {ErrorCode::InvalidArgument, "cloth and hair bend by links: set_compliance"};
     const Result result = check_length("set_bending", "stiffness", stiffness);
@@ -62,7 +62,7 @@ double World::mass(const Body& body) const noexcept {
 
 Result World::set_mass(BodyId body, double kilograms) noexcept {
     const Body* const changed = find(body);
-    if (changed == nullptr) return missing("set_mass", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_mass", "body", body, state_);
     if (!(kilograms > 0.0 && kilograms <= 1e18))
         return refused("set_mass", "kilograms", "over 0 and at most 1e18", kilograms);
     scale_mass(*changed, kilograms / mass(*changed));
@@ -79,7 +79,7 @@ double World::density(const Body& body) const {
 
 Result World::set_density(BodyId body, double density) {
     const Body* const changed = find(body);
-    if (changed == nullptr) return missing("set_density", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_density", "body", body, state_);
     if (!(density >= static_cast<double>(min_density) && density <= static_cast<double>(max_magnitude)))
         return refused("set_density", "density", "1e-9 to 1e9", density);
     const double now = this->density(*changed);
@@ -119,7 +119,7 @@ double World::compliance(const Body& body, Link::Kind kind) const {
 
 Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) {
     const Body* const changed = find(body);
-    if (changed == nullptr) return missing("set_compliance", "body", "body", body.index);
+    if (changed == nullptr) return missing("set_compliance", "body", body, state_);
     if (!(compliance >= 0.0 && compliance <= static_cast<double>(max_magnitude)))
         return refused("set_compliance", "compliance", "0 to 1e9", compliance);
     const detail::RestGrid grid = detail::rest_grid(state_, *changed);
@@ -150,7 +150,7 @@ Result World::set_width(BodyId cloth, float metres) {
 /// Scales a body along its rows, or across them.
 Result World::scale(BodyId body, const char* operation, float metres, bool rows) {
     Body* const changed = found(body);
-    if (changed == nullptr) return missing(operation, "body", "body", body.index);
+    if (changed == nullptr) return missing(operation, "body", body, state_);
     if (const Result bad = check_length(operation, "metres", metres); !bad) return bad;
     const detail::RestGrid was = detail::rest_grid(state_, *changed);
     const double now = rows ? was.length() : was.width();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "math/checks.hpp"
@@ -86,15 +87,14 @@ inline bool is_within(const Body& body, const Link& link) noexcept {
     return owns(body, link) && link.b >= body.first && link.b - body.first < body.count;
 }
 
-/// `remove: body must be the handle of a body that is there, got slot 7`
-inline Result missing(const char* operation, const char* argument, const char* kind,
-                      std::uint32_t slot) noexcept {
-    using tendril::detail::refused;
-    const char* const rule = kind[0] == 'b'   ? "the handle of a body that is there"
-                             : kind[0] == 't' ? "the handle of a tie that is there"
-                                              : "the handle of a collider that is there";
-    const Result words = refused(operation, argument, rule, static_cast<std::size_t>(slot));
-    return {ErrorCode::OutOfRange, words.message()};
+/// Why a handle finds nothing: `remove: body was removed (slot 7)`
+template <class Id>
+Result missing(const char* operation, const char* argument, Id id, const State& state) noexcept {
+    const auto& slots = std::is_same_v<Id, BodyId>  ? state.body_slots
+                        : std::is_same_v<Id, TieId> ? state.tie_slots
+                                                    : state.collider_slots;
+    const std::uint32_t uses = id.index < slots.size() ? slots[id.index] : 0;
+    return tendril::detail::refused_handle(operation, argument, id.index, id.generation, uses, "world");
 }
 
 }  // namespace tendril::rope::detail

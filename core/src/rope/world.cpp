@@ -127,7 +127,7 @@ Expected<BodyId> World::add_hair(const HairShape& shape) {
 
 Result World::remove(BodyId body) noexcept {
     const Body* removed = found(body);
-    if (removed == nullptr) return missing("remove", "body", "body", body.index);
+    if (removed == nullptr) return missing("remove", "body", body, state_);
     const std::size_t first = removed->first, count = removed->count, end = first + count;
     erase_range(state_.position, first, count);
     erase_range(state_.displacement, first, count);
@@ -166,7 +166,7 @@ const Collider* World::find(ColliderId collider) const noexcept {
 
 Expected<std::size_t> World::particle(BodyId body, std::size_t index) const noexcept {
     const Body* of = find(body);
-    if (of == nullptr) return missing("particle", "body", "body", body.index);
+    if (of == nullptr) return missing("particle", "body", body, state_);
     if (const Result bad = check_index("particle", index, of->count, "the body", "particle"); !bad)
         return bad;
     return of->first + index;
@@ -189,7 +189,7 @@ Result World::pin(std::size_t particle, const glm::dvec3& at, double seconds) {
 Result World::attach(std::size_t particle, ColliderId collider) {
     if (const Result bad = check_particle("attach", particle, size()); !bad) return bad;
     const Collider* holder = find(collider);
-    if (holder == nullptr) return missing("attach", "collider", "collider", collider.index);
+    if (holder == nullptr) return missing("attach", "collider", collider, state_);
     if (const Result bad = pin(particle, position(particle)); !bad) return bad;
     const auto slot = pin_of(state_.pins, particle);
     slot->goal = state_.position[particle] - glm::dvec3(centre(holder->shape));
@@ -215,7 +215,7 @@ bool World::pinned(std::size_t particle) const noexcept {
 
 Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     const Body* const whole = find(rope);
-    if (whole == nullptr) return missing("cut", "rope", "body", rope.index);
+    if (whole == nullptr) return missing("cut", "rope", rope, state_);
     if (whole->kind != Body::Kind::Rope)
         return Result(ErrorCode::InvalidArgument, "only ropes can be cut, not cloth or hair");
     if (const Result bad = check_index("cut", segment, whole->count - 1, "the rope", "segment"); !bad)
@@ -240,7 +240,7 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
 
 Result World::move(BodyId body, const glm::dvec3& by) noexcept {
     const Body* const moved = find(body);
-    if (moved == nullptr) return missing("move", "body", "body", body.index);
+    if (moved == nullptr) return missing("move", "body", body, state_);
     const auto inside = [&](std::size_t particle) { return particle - moved->first < moved->count; };
     for (std::size_t i = moved->first; i < moved->first + moved->count; ++i) {
         const glm::dvec3 to = glm::abs(state_.position[i] + by);
@@ -281,7 +281,7 @@ Expected<TieId> World::tie(std::size_t a, std::size_t b, const TieShape& shape) 
 
 Result World::set_tie(TieId tie, const TieShape& shape) noexcept {
     Tie* const there = detail::find_in(state_.ties, tie);
-    if (there == nullptr) return missing("set_tie", "tie", "tie", tie.index);
+    if (there == nullptr) return missing("set_tie", "tie", tie, state_);
     if (const Result bad = check_fields("set_tie", shape); !bad) return bad;
     there->length = shape.length;
     there->strength = shape.strength;
@@ -289,7 +289,7 @@ Result World::set_tie(TieId tie, const TieShape& shape) noexcept {
 }
 
 Result World::untie(TieId tie) noexcept {
-    if (find(tie) == nullptr) return missing("untie", "tie", "tie", tie.index);
+    if (find(tie) == nullptr) return missing("untie", "tie", tie, state_);
     detail::erase_ties(state_, [&](const Tie& each) { return each.id == tie; });
     return {};
 }
@@ -301,7 +301,7 @@ const Tie* World::find(TieId tie) const noexcept {
 Result World::set_collides(BodyId a, BodyId b, bool on) {
     for (const BodyId each : {a, b}) {
         const Body* const body = find(each);
-        if (body == nullptr) return missing("set_collides", each == a ? "a" : "b", "body", each.index);
+        if (body == nullptr) return missing("set_collides", each == a ? "a" : "b", each, state_);
         if (body->kind == Body::Kind::Hair)
             return Result(ErrorCode::InvalidArgument,
                           "set_collides: hair cannot collide, only ropes and cloth");
@@ -329,7 +329,7 @@ Expected<ColliderId> World::add_collider(const Shape& shape) {
 
 Result World::move_collider(ColliderId collider, const glm::vec3& to, double seconds) noexcept {
     Collider* const moving = found(collider);
-    if (moving == nullptr) return missing("move_collider", "collider", "collider", collider.index);
+    if (moving == nullptr) return missing("move_collider", "collider", collider, state_);
     if (const Result bad = check_point("move_collider", "to", to); !bad) return bad;
     if (const Result bad = check("move_collider", moved(moving->shape, to)); !bad) return bad;
     if (const Result bad = check_time("move_collider", seconds); !bad) return bad;
@@ -341,7 +341,7 @@ Result World::move_collider(ColliderId collider, const glm::vec3& to, double sec
 
 Result World::move_capsule(ColliderId capsule, const Capsule& to, double seconds) noexcept {
     Collider* const moving = found(capsule);
-    if (moving == nullptr) return missing("move_capsule", "capsule", "collider", capsule.index);
+    if (moving == nullptr) return missing("move_capsule", "capsule", capsule, state_);
     auto* const shape = std::get_if<Capsule>(&moving->shape);
     if (shape == nullptr) return refused("move_capsule", "capsule", "a capsule", kind(moving->shape));
     if (const Result bad = check("move_capsule", to); !bad) return bad;
@@ -355,7 +355,7 @@ Result World::move_capsule(ColliderId capsule, const Capsule& to, double seconds
 
 Result World::drive_collider(ColliderId collider, const Drive& drive) noexcept {
     Collider* const driven = found(collider);
-    if (driven == nullptr) return missing("drive_collider", "collider", "collider", collider.index);
+    if (driven == nullptr) return missing("drive_collider", "collider", collider, state_);
     if (const Result bad = check_fields("drive_collider", drive); !bad) return bad;
     driven->drive = drive;
     return {};
@@ -363,7 +363,7 @@ Result World::drive_collider(ColliderId collider, const Drive& drive) noexcept {
 
 Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
     Collider* const there = found(collider);
-    if (there == nullptr) return missing("set_collider", "collider", "collider", collider.index);
+    if (there == nullptr) return missing("set_collider", "collider", collider, state_);
     if (const Result bad = check("set_collider", shape); !bad) return bad;
     there->shape = shape;
     there->goal = glm::dvec3(centre(shape));
@@ -374,7 +374,7 @@ Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
 
 Result World::remove_collider(ColliderId collider) noexcept {
     const Collider* const removed = find(collider);
-    if (removed == nullptr) return missing("remove_collider", "collider", "collider", collider.index);
+    if (removed == nullptr) return missing("remove_collider", "collider", collider, state_);
     std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == collider; });
     detail::free_slot(state_.collider_slots, collider);
     erase_range(state_.colliders, static_cast<std::size_t>(removed - state_.colliders.data()), 1);

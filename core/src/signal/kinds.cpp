@@ -18,83 +18,13 @@ constexpr Field number(const char* name, const char* unit, FieldRange range, Fie
     return row;
 }
 
-/// The table of a kind.
-template <class P>
-constexpr Field rows[1]{};
-
-constexpr FieldRange any{-1e9, 1e9}, amount{0.0, 1e9}, speeds{-1e6, 1e6}, seconds{0.0, 1e4};
+constexpr FieldRange outputs{-max_output, max_output}, any{-1e9, 1e9}, amount{0.0, 1e9}, speeds{-1e6, 1e6},
+    seconds{0.0, 1e4};
 constexpr FieldRange strengths{0.0, max_strength}, dampings{0.0, max_damping}, cutoffs{0.0, 1e6};
 constexpr FieldRange usual_values{-10.0, 10.0}, usual_speeds{0.1, 60.0}, usual_strengths{0.1, 20.0};
 constexpr FieldRange usual_seconds{0.005, 2.0};
 
-template <>
-constexpr Field rows<InterpTo>[] = {
-    number<&InterpTo::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
-template <>
-constexpr Field rows<InterpToExact>[] = {
-    number<&InterpToExact::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
-template <>
-constexpr Field rows<ScaleBiasClamp>[] = {
-    field<&ScaleBiasClamp::map_range>("map_range"),
-    number<&ScaleBiasClamp::in_range>("in_range", "", any, usual_values),
-    number<&ScaleBiasClamp::out_range>("out_range", "", any, usual_values),
-    number<&ScaleBiasClamp::scale>("scale", "", any, usual_values),
-    number<&ScaleBiasClamp::bias>("bias", "", any, usual_values),
-    field<&ScaleBiasClamp::clamp>("clamp"),
-    number<&ScaleBiasClamp::clamp_min>("clamp_min", "", any, usual_values),
-    number<&ScaleBiasClamp::clamp_max>("clamp_max", "", any, usual_values),
-    field<&ScaleBiasClamp::interp>("interp"),
-    number<&ScaleBiasClamp::speed_increasing>("speed_increasing", "1/s", speeds, usual_speeds, Logarithmic),
-    number<&ScaleBiasClamp::speed_decreasing>("speed_decreasing", "1/s", speeds, usual_speeds, Logarithmic)};
-template <>
-constexpr Field rows<Spring<>>[] = {
-    number<&Spring<>::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
-    number<&Spring<>::critical_damping>("critical_damping", "", dampings, {0.0, 3.0}),
-    number<&Spring<>::force>("force", "1/s^2", any, {-100.0, 100.0}),
-    number<&Spring<>::target_velocity_amount>("target_velocity_amount", "", {0.0, 1.0}, {0.0, 1.0})};
-template <>
-constexpr Field rows<ExponentialDecay>[] = {
-    number<&ExponentialDecay::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic)};
-template <>
-constexpr Field rows<RateLimit>[] = {
-    number<&RateLimit::rise>("rise", "1/s", amount, {0.05, 50.0}, Logarithmic),
-    number<&RateLimit::fall>("fall", "1/s", amount, {0.05, 50.0}, Logarithmic)};
-template <>
-constexpr Field rows<SmoothDamp>[] = {
-    number<&SmoothDamp::smooth_time>("smooth_time", "s", seconds, usual_seconds, Logarithmic),
-    number<&SmoothDamp::max_speed>("max_speed", "1/s", amount, {0.1, 1e6}, Logarithmic)};
-template <>
-constexpr Field rows<SpringSemiImplicit>[] = {
-    number<&SpringSemiImplicit::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
-    number<&SpringSemiImplicit::critical_damping>("critical_damping", "", dampings, {0.0, 3.0})};
-template <>
-constexpr Field rows<OneEuro>[] = {
-    number<&OneEuro::min_cutoff>("min_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
-    number<&OneEuro::beta>("beta", "", cutoffs, {0.0, 2.0}),
-    number<&OneEuro::derivative_cutoff>("derivative_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
-    number<&OneEuro::reset_jump>("reset_jump", "", amount, {0.0, 2.0})};
-template <>
-constexpr Field rows<MovingAverage>[] = {
-    number<&MovingAverage::window>("window", "s", {0.0, 3600.0}, usual_seconds, Logarithmic)};
-template <>
-constexpr Field rows<DeadZone>[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};
-template <>
-constexpr Field rows<Hysteresis>[] = {number<&Hysteresis::low>("low", "", any, {-2.0, 2.0}),
-                                      number<&Hysteresis::high>("high", "", any, {-2.0, 2.0})};
-template <>
-constexpr Field rows<Inertialize>[] = {
-    number<&Inertialize::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic),
-    number<&Inertialize::threshold>("threshold", "", amount, {0.01, 2.0}, Logarithmic)};
 constexpr const char* pieces[] = {"constant", "linear", "cubic"};
-constexpr Field key_fields[] = {
-    field<&CurveKey::time>("time", any).needed(), field<&CurveKey::value>("value", any).needed(),
-    field<&CurveKey::arrive>("arrive", any), field<&CurveKey::leave>("leave", any),
-    field<&CurveKey::piece>("piece", pieces)};
-constexpr Field curve_fields[] = {list<&Curve::keys>("keys").sparsely().up_to(1'000, 1),
-                                  number<&Curve::source_min>("source_min", "", any, usual_values),
-                                  number<&Curve::source_max>("source_max", "", any, usual_values),
-                                  number<&Curve::target_min>("target_min", "", any, usual_values),
-                                  number<&Curve::target_max>("target_max", "", any, usual_values)};
 
 template <class P>
 Filter blank() noexcept {
@@ -143,41 +73,128 @@ const char* kind(const Filter& filter) noexcept {
 
 namespace tendril {
 
-template <class Struct>
-std::span<const Field> fields() noexcept {
-    return signal::rows<Struct>;
-}
-template std::span<const Field> fields<signal::InterpTo>() noexcept;
-template std::span<const Field> fields<signal::InterpToExact>() noexcept;
-template std::span<const Field> fields<signal::ScaleBiasClamp>() noexcept;
-template std::span<const Field> fields<signal::Spring<>>() noexcept;
-template std::span<const Field> fields<signal::ExponentialDecay>() noexcept;
-template std::span<const Field> fields<signal::RateLimit>() noexcept;
-template std::span<const Field> fields<signal::SmoothDamp>() noexcept;
-template std::span<const Field> fields<signal::SpringSemiImplicit>() noexcept;
-template std::span<const Field> fields<signal::OneEuro>() noexcept;
-template std::span<const Field> fields<signal::MovingAverage>() noexcept;
-template std::span<const Field> fields<signal::DeadZone>() noexcept;
-template std::span<const Field> fields<signal::Hysteresis>() noexcept;
-template std::span<const Field> fields<signal::Inertialize>() noexcept;
-
-namespace {
-
-constexpr FieldRange outputs{-signal::max_output, signal::max_output};
-
-}  // namespace
+using namespace signal;
 
 template <>
-std::span<const Field> fields<signal::OutputState>() noexcept {
-    using signal::OutputState;
+std::span<const Field> fields<InterpTo>() noexcept {
+    static constexpr Field rows[] = {
+        number<&InterpTo::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<InterpToExact>() noexcept {
+    static constexpr Field rows[] = {
+        number<&InterpToExact::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ScaleBiasClamp>() noexcept {
+    static constexpr Field rows[] = {field<&ScaleBiasClamp::map_range>("map_range"),
+                                     number<&ScaleBiasClamp::in_range>("in_range", "", any, usual_values),
+                                     number<&ScaleBiasClamp::out_range>("out_range", "", any, usual_values),
+                                     number<&ScaleBiasClamp::scale>("scale", "", any, usual_values),
+                                     number<&ScaleBiasClamp::bias>("bias", "", any, usual_values),
+                                     field<&ScaleBiasClamp::clamp>("clamp"),
+                                     number<&ScaleBiasClamp::clamp_min>("clamp_min", "", any, usual_values),
+                                     number<&ScaleBiasClamp::clamp_max>("clamp_max", "", any, usual_values),
+                                     field<&ScaleBiasClamp::interp>("interp"),
+                                     number<&ScaleBiasClamp::speed_increasing>(
+                                         "speed_increasing", "1/s", speeds, usual_speeds, Logarithmic),
+                                     number<&ScaleBiasClamp::speed_decreasing>(
+                                         "speed_decreasing", "1/s", speeds, usual_speeds, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<Spring<>>() noexcept {
+    static constexpr Field rows[] = {
+        number<&Spring<>::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
+        number<&Spring<>::critical_damping>("critical_damping", "", dampings, {0.0, 3.0}),
+        number<&Spring<>::force>("force", "1/s^2", any, {-100.0, 100.0}),
+        number<&Spring<>::target_velocity_amount>("target_velocity_amount", "", {0.0, 1.0}, {0.0, 1.0})};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ExponentialDecay>() noexcept {
+    static constexpr Field rows[] = {
+        number<&ExponentialDecay::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<RateLimit>() noexcept {
+    static constexpr Field rows[] = {
+        number<&RateLimit::rise>("rise", "1/s", amount, {0.05, 50.0}, Logarithmic),
+        number<&RateLimit::fall>("fall", "1/s", amount, {0.05, 50.0}, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<SmoothDamp>() noexcept {
+    static constexpr Field rows[] = {
+        number<&SmoothDamp::smooth_time>("smooth_time", "s", seconds, usual_seconds, Logarithmic),
+        number<&SmoothDamp::max_speed>("max_speed", "1/s", amount, {0.1, 1e6}, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<SpringSemiImplicit>() noexcept {
+    static constexpr Field rows[] = {
+        number<&SpringSemiImplicit::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
+        number<&SpringSemiImplicit::critical_damping>("critical_damping", "", dampings, {0.0, 3.0})};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<OneEuro>() noexcept {
+    static constexpr Field rows[] = {
+        number<&OneEuro::min_cutoff>("min_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
+        number<&OneEuro::beta>("beta", "", cutoffs, {0.0, 2.0}),
+        number<&OneEuro::derivative_cutoff>("derivative_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
+        number<&OneEuro::reset_jump>("reset_jump", "", amount, {0.0, 2.0})};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<MovingAverage>() noexcept {
+    static constexpr Field rows[] = {
+        number<&MovingAverage::window>("window", "s", {0.0, 3600.0}, usual_seconds, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<DeadZone>() noexcept {
+    static constexpr Field rows[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<Hysteresis>() noexcept {
+    static constexpr Field rows[] = {number<&Hysteresis::low>("low", "", any, {-2.0, 2.0}),
+                                     number<&Hysteresis::high>("high", "", any, {-2.0, 2.0})};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<Inertialize>() noexcept {
+    static constexpr Field rows[] = {
+        number<&Inertialize::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic),
+        number<&Inertialize::threshold>("threshold", "", amount, {0.01, 2.0}, Logarithmic)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<OutputState>() noexcept {
     static constexpr Field rows[] = {field<&OutputState::value>("value", outputs).needed(),
                                      field<&OutputState::started>("started").needed()};
     return rows;
 }
 
 template <>
-std::span<const Field> fields<signal::MotionState>() noexcept {
-    using signal::MotionState;
+std::span<const Field> fields<MotionState>() noexcept {
     static constexpr Field rows[] = {field<&MotionState::started>("started").needed(),
                                      field<&MotionState::value>("value", outputs).needed(),
                                      field<&MotionState::velocity>("velocity", outputs, "1/s").needed()};
@@ -185,7 +202,7 @@ std::span<const Field> fields<signal::MotionState>() noexcept {
 }
 
 template <>
-std::span<const Field> fields<signal::MovingAverageState>() noexcept {
+std::span<const Field> fields<MovingAverageState>() noexcept {
     using State = signal::MovingAverageState;
     constexpr FieldRange index{0.0, 1e9};
     static constexpr Field rows[] = {field<&State::started>("started").needed(),
@@ -198,7 +215,7 @@ std::span<const Field> fields<signal::MovingAverageState>() noexcept {
 }
 
 template <>
-std::span<const Field> fields<signal::InertializeState>() noexcept {
+std::span<const Field> fields<InertializeState>() noexcept {
     using State = signal::InertializeState;
     static constexpr Field rows[] = {
         field<&State::started>("started").needed(),
@@ -212,11 +229,20 @@ std::span<const Field> fields<signal::InertializeState>() noexcept {
 }
 
 template <>
-std::span<const Field> fields<signal::CurveKey>() noexcept {
-    return signal::key_fields;
+std::span<const Field> fields<CurveKey>() noexcept {
+    static constexpr Field rows[] = {
+        field<&CurveKey::time>("time", any).needed(), field<&CurveKey::value>("value", any).needed(),
+        field<&CurveKey::arrive>("arrive", any), field<&CurveKey::leave>("leave", any),
+        field<&CurveKey::piece>("piece", pieces)};
+    return rows;
 }
 template <>
-std::span<const Field> fields<signal::Curve>() noexcept {
-    return signal::curve_fields;
+std::span<const Field> fields<Curve>() noexcept {
+    static constexpr Field rows[] = {list<&Curve::keys>("keys").sparsely().up_to(1'000, 1),
+                                     number<&Curve::source_min>("source_min", "", any, usual_values),
+                                     number<&Curve::source_max>("source_max", "", any, usual_values),
+                                     number<&Curve::target_min>("target_min", "", any, usual_values),
+                                     number<&Curve::target_max>("target_max", "", any, usual_values)};
+    return rows;
 }
 }  // namespace tendril

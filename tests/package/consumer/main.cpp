@@ -1,10 +1,6 @@
 #include <algorithm>
 #include <cstdio>
-#include <tendril/chain/chain.hpp>
-#include <tendril/ik/many.hpp>
-#include <tendril/signal/batch.hpp>
-#include <tendril/signal/filter.hpp>
-#include <tendril/version.hpp>
+#include <tendril/tendril.hpp>
 #include <vector>
 
 int main() {

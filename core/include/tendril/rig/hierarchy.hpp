@@ -90,8 +90,8 @@ class Hierarchy {
         return element.index < nodes_.size() && nodes_[element.index].generation == element.generation &&
                element.generation % 2 == 1;
     }
-    /// Success if it exists; otherwise "OPERATION: ARGUMENT must be the handle of an existing element,
-    /// got slot 7". For code built on a hierarchy.
+    /// Success if it exists; otherwise "OPERATION: ARGUMENT was removed (slot 7)", or is empty, or not of
+    /// this hierarchy. For code built on a hierarchy.
     Result check(ElementId element, const char* operation, const char* argument) const noexcept;
     ElementKind kind(ElementId element) const noexcept;
     /// An empty handle if there is none, here and in the next four.

@@ -115,4 +115,6 @@ Expected<SpringShape> of_duration(double duration, double bounce) noexcept;
 }  // namespace tendril::signal
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::Spring<>>() noexcept;
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::signal::SpringState<double>>() noexcept;
