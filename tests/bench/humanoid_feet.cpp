@@ -1,6 +1,6 @@
-// Cost of foot IK per character and frame, by ground, and of 1 000 characters on two cores.
+// Cost of foot IK per character and frame, by ground.
 //
-// Claims, for the worst row: the feet of a character take at most 9 loops (measure.hpp) per frame; a mesh of
+// Claims, for the worst row: the feet of a character take at most 26 loops (measure.hpp) per frame; a mesh of
 // 200 000 triangles costs at most three times as much as flat ground.
 #include "../core/humanoid_walk.hpp"
 #include "measure.hpp"
@@ -72,7 +72,7 @@ class Crowd {
         for (std::size_t i = 0; i < characters; ++i)
             poses_[i] = clip_[(static_cast<std::size_t>(frame_) + 7 * i) % frames];
     }
-    void step(int threads) { step_many(jobs_, ground_, 1.0 / 60, {.threads = threads}); }
+    void step() { step_many(jobs_, ground_, 1.0 / 60, {.threads = 1}); }
 
   private:
     Ground ground_;
@@ -85,8 +85,8 @@ class Crowd {
 };
 
 /// Milliseconds for all characters.
-double milliseconds(Crowd& crowd, int threads, double (*now)()) {
-    return race({[&] { crowd.step(threads); }}, 3 * frames, now, [&] { crowd.prepare(); })[0] * 1e3;
+double milliseconds(Crowd& crowd) {
+    return race({[&] { crowd.step(); }}, 3 * frames, cpu_seconds, [&] { crowd.prepare(); })[0] * 1e3;
 }
 
 }  // namespace
@@ -104,13 +104,12 @@ int main(int count, char** arguments) {
                      {"walking, mesh of 2 000 triangles", hills(32), Motion::Walk},
                      {"walking, mesh of 200 000 triangles", hills(316), Motion::Walk},
                      {"hostile, stairs", *Ground::stairs(0.15, 0.3), Motion::Hostile}};
-    std::printf("%-36s%16s%18s%18s\n", "1 000 characters", "us a character", "ms, one thread",
-                "ms, two threads");
+    std::printf("%-36s%16s\n", "1 000 characters", "us a character");
     double worst = 0.0, flat = 0.0, mesh = 0.0;
     for (const Row& row : rows) {
         Crowd crowd(row.ground, row.motion);
-        const double one = milliseconds(crowd, 1, cpu_seconds), two = milliseconds(crowd, 2, wall_seconds);
-        std::printf("%-36s%16.2f%18.2f%18.2f\n", row.title, one, one, two);
+        const double one = milliseconds(crowd);
+        std::printf("%-36s%16.2f\n", row.title, one);
         worst = std::max(worst, one);
         if (std::string(row.title) == "walking, flat") flat = one;
         if (std::string(row.title) == "walking, mesh of 200 000 triangles") mesh = one;

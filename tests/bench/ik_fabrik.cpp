@@ -1,14 +1,10 @@
-// Cost of FABRIK: FABRIK (2011) and accelerated, against the same passes as a bare loop, and the iterations
-// and time that each needs to reach.
+// Cost of FABRIK: FABRIK (2011) and accelerated, against the same passes as a bare loop.
 //
 // Claims: 20 forced iterations of 10 bones take at most 0.012 loops (measure.hpp) per bone and pass, at
 // most 1.5 times a bare loop measured in the same run; the cost grows linearly; an accelerated iteration
-// costs at most twice a plain one, and in a plane as much as a solid one; it needs at most 12 iterations (20
-// for 3 bones) for 99.9 % of all targets, wherever they are, and moves the joints at most 1.05 times as far.
+// costs at most twice a plain one, and in a plane as much as a solid one.
 // Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
-
-#include <random>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
@@ -18,15 +14,12 @@ namespace {
 using namespace tendril::bench;
 using tendril::ik::Method;
 using tendril::ik::Options;
-using tendril::ik::Report;
 using Solver = tendril::test::KeptSolver;
 
 constexpr std::size_t sizes[] = {4, 10, 100, 1'000, 10'000};
 constexpr const char* kinds[] = {"bare", "fabrik_plain", "fabrik", "plane"};
 constexpr int repetitions = 9;
 constexpr int forced = 20;
-
-// ---- Cost of an iteration
 
 /// Two alternating targets well inside, so that every iteration has work to do.
 glm::vec3 target(std::size_t bones, std::size_t turn) {
@@ -155,95 +148,6 @@ bool report_cost(const std::map<std::string, double>& seconds) {
     return all;
 }
 
-// ---- Iterations and time to the target
-
-struct Tally {
-    std::vector<int> iterations;
-    double travel = 0.0;  // metres, of all joints in all solves
-    double seconds = 0.0;
-
-    int percentile(double part) {
-        std::sort(iterations.begin(), iterations.end());
-        const auto last = static_cast<double>(iterations.size() - 1);
-        return iterations[static_cast<std::size_t>(std::ceil(part * last))];
-    }
-};
-
-class Targets {
-  public:
-    float between(float least, float most) {
-        return least + (most - least) * static_cast<float>(bits_() >> 8) * 0x1p-24f;
-    }
-    glm::vec3 direction() {
-        for (;;) {
-            const glm::vec3 p(between(-1, 1), between(-1, 1), between(-1, 1));
-            const float squared = p.x * p.x + p.y * p.y + p.z * p.z;
-            if (squared > 0.01f && squared <= 1.0f) return p * (1.0f / std::sqrt(squared));
-        }
-    }
-
-  private:
-    std::mt19937 bits_{20261121};
-};
-
-double size(const glm::vec3& a) {
-    return std::sqrt(static_cast<double>(a.x * a.x + a.y * a.y + a.z * a.z));
-}
-
-struct Problem {
-    std::vector<glm::vec3> start;
-    glm::vec3 target;
-};
-
-Tally solve_all(Method method, const std::vector<Problem>& problems) {
-    Tally tally;
-    Solver solver(std::vector<float>(problems.front().start.size() - 1, 1.0f));
-    std::vector<std::vector<glm::vec3>> ends;
-    for (const Problem& each : problems) ends.push_back(each.start);
-    const double begin = cpu_seconds();
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-        const Report report = solver.solve(method, ends[i], problems[i].target, {.max_iterations = 100'000});
-        tally.iterations.push_back(report.iterations);
-    }
-    tally.seconds = cpu_seconds() - begin;
-    record({tally.seconds}, std::source_location::current());
-    for (std::size_t i = 0; i < problems.size(); ++i)
-        for (std::size_t j = 0; j < ends[i].size(); ++j)
-            tally.travel += size(ends[i][j] - problems[i].start[j]);
-    return tally;
-}
-
-bool report_reaching() {
-    constexpr float bands[][2] = {{0.05f, 0.9f}, {0.9f, 0.95f}, {0.95f, 0.99f}, {0.99f, 0.999f}};
-    constexpr std::size_t count = 2000;
-    bool all = true;
-    std::printf("\niterations to 1e-3 of the reach, p50 / p99 / p99.9 of %zu random starts and targets\n",
-                count);
-    std::printf("joints  distance/R    fabrik_plain      fabrik          travel   time\n");
-    for (const std::size_t bones : {std::size_t{3}, std::size_t{10}, std::size_t{30}})
-        for (const auto& band : bands) {
-            Targets targets;
-            std::vector<Problem> problems(count);
-            for (Problem& each : problems) {
-                each.start = {{0, 0, 0}};
-                for (std::size_t i = 0; i < bones; ++i)
-                    each.start.push_back(each.start.back() + targets.direction());
-                each.target =
-                    targets.direction() * (static_cast<float>(bones) * targets.between(band[0], band[1]));
-            }
-            Tally plain = solve_all(Method::FabrikPlain, problems),
-                  fast = solve_all(Method::Fabrik, problems);
-            const double travel = fast.travel / plain.travel;
-            std::printf("%6zu  %.2f..%.3f  %5d %5d %5d  %3d %3d %3d  %12.4f  %5.3f\n", bones + 1, band[0],
-                        band[1], plain.percentile(0.5), plain.percentile(0.99), plain.percentile(0.999),
-                        fast.percentile(0.5), fast.percentile(0.99), fast.percentile(0.999), travel,
-                        fast.seconds / plain.seconds);
-            all &= fast.percentile(0.999) <= (bones == 3 ? 20 : 12) && travel <= 1.05;
-        }
-    std::printf("%s  iterations and travel of the accelerated one\n", all ? "PASS" : "FAIL");
-    return all;
-}
-
 void register_all() {
     for (const std::size_t bones : sizes)
         for (auto* each : {benchmark::RegisterBenchmark(name_of("bare", bones).c_str(), run_bare, bones),
@@ -265,6 +169,5 @@ int main(int count, char** arguments) {
     register_all();
     Medians medians;
     benchmark::RunSpecifiedBenchmarks(&medians);
-    const bool cost = report_cost(medians.seconds), reaching = report_reaching();
-    return (cost && reaching) || !check ? 0 : 1;
+    return report_cost(medians.seconds) || !check ? 0 : 1;
 }

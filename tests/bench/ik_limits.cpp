@@ -1,7 +1,6 @@
-// Cost of joint limits: an iteration with limits against one without, for every method, in the same run; how
-// often each method arrives from rest at targets from poses within the limits; a solve and an explanation of
-// an active limit. Then whole solves by the default method over sizes and kinds of joints: limits far off,
-// reached, and dragged along; and a target that the limits forbid.
+// Cost of joint limits: whole solves by the default method over sizes and kinds of joints, against the same
+// without limits in the same run: limits far off, reached, and dragged along; and a target that the limits
+// forbid.
 #include <random>
 
 #include "../core/kept_solver.hpp"
@@ -14,7 +13,7 @@ using tendril::test::KeptSolver;
 namespace bench = tendril::bench;
 
 constexpr float degree = 3.14159265f / 180.0f;
-constexpr int repetitions = 9, forced = 20, solves = 200;
+constexpr int repetitions = 9;
 
 using Joints = std::vector<glm::vec3>;
 
@@ -30,55 +29,6 @@ struct Arm {
         return joints;
     }
 };
-
-/// All kinds in turn; or shoulder, elbow, wrist and fingers.
-Arm arm_of(std::size_t bones, bool human) {
-    constexpr JointKind all[] = {JointKind::BallAndSocket, JointKind::Hinge,   JointKind::Saddle,
-                                 JointKind::Pivot,         JointKind::Gliding, JointKind::Suture};
-    constexpr JointKind limb[] = {JointKind::BallAndSocket, JointKind::Hinge, JointKind::Gliding,
-                                  JointKind::Hinge, JointKind::Hinge};
-    Arm arm;
-    for (std::size_t i = 0; i < bones; ++i) arm.limits.push_back(Limit::of(human ? limb[i % 5] : all[i % 6]));
-    return arm;
-}
-
-// ---- An iteration
-
-double microseconds_an_iteration(const Arm& arm, Method method, bool limited, double& ratio_of) {
-    KeptSolver with = arm.solver(), without = arm.solver();
-    const Joints rest = arm.at_rest();
-    const auto bones = static_cast<float>(arm.limits.size());
-    const glm::vec3 target = glm::vec3(0.5f, 0.3f, 0.2f) * bones;
-    Options options{.tolerance = 0.0f, .max_iterations = forced, .every_iteration = true};
-    Options limits = options;
-    limits.limits = arm.limits;
-    const auto run = [&](KeptSolver& solver, const Options& what) {
-        for (int i = 0; i < solves; ++i) {
-            Joints joints = rest;
-            solver.state.reset();
-            solver.solve(method, joints, target, what);
-        }
-    };
-    const auto seconds =
-        bench::race({[&] { run(without, options); }, [&] { run(with, limits); }}, repetitions);
-    ratio_of = seconds[1] / seconds[0];
-    return 1e6 * seconds[limited ? 1 : 0] / (solves * forced);
-}
-
-void iterations_table() {
-    std::printf("An iteration, %d forced, ball-jointed and with limits of all kinds\n", forced);
-    std::printf("%-20s %6s %14s %9s\n", "method", "bones", "limited us", "ratio");
-    for (const Method method : all_methods) {
-        if (method == Method::TwoBone) continue;
-        for (const std::size_t bones : {5u, 20u, 100u}) {
-            double ratio = 0.0;
-            const double limited = microseconds_an_iteration(arm_of(bones, false), method, true, ratio);
-            std::printf("%-20s %6zu %14.2f %9.1f\n", name(method), bones, limited, ratio);
-        }
-    }
-}
-
-// ---- From rest
 
 /// Tips of poses within the limits, from solves for arbitrary targets: reachable targets.
 std::vector<glm::vec3> reachable(const Arm& arm, int count) {
@@ -97,58 +47,6 @@ std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     return targets;
 }
 
-/// The smaller arrival rate of the default method, percent.
-double arrivals_table() {
-    double least = 100.0;
-    std::printf(
-        "\nFrom rest to where some pose within the limits is, to 0.01 of the reach, 200 iterations\n");
-    std::printf("%-20s %-10s %9s %11s %9s\n", "method", "arm", "arrive %", "iterations", "us");
-    for (const bool human : {false, true}) {
-        const Arm arm = arm_of(5, human);
-        const std::vector<glm::vec3> targets = reachable(arm, 1000);
-        for (const Method method : all_methods) {
-            if (method == Method::TwoBone) continue;
-            KeptSolver solver = arm.solver();
-            Options options{.max_iterations = 200, .limits = arm.limits};
-            int there = 0;
-            double iterations = 0.0;
-            const double start = bench::cpu_seconds();
-            for (const glm::vec3 target : targets) {
-                Joints joints = arm.at_rest();
-                solver.state.reset();
-                const Report report = solver.solve(method, joints, target, options);
-                there += report.residual <= 0.01f * solver.reach();
-                iterations += report.iterations;
-            }
-            const double us = 1e6 * (bench::cpu_seconds() - start),
-                         count = static_cast<double>(targets.size());
-            std::printf("%-20s %-10s %9.1f %11.1f %9.1f\n", name(method), human ? "human" : "all kinds",
-                        100.0 * there / count, iterations / count, us / count);
-            if (method == Method::Fabrik) least = std::min(least, 100.0 * there / count);
-        }
-    }
-    return least;
-}
-
-// ---- Active limits
-
-void held_table() {
-    Arm arm = arm_of(5, true);
-    arm.limits[1] = Limit::hinge({0, 0, 1}, 0, 145 * degree);
-    KeptSolver solver = arm.solver();
-    const glm::vec3 target{-4.5f, -0.5f, 1.0f};
-    Options options{.limits = arm.limits};
-    Joints joints = arm.at_rest();
-    const Report report = solver.solve(Method::Fabrik, joints, target, options);
-    const auto seconds = bench::race({[&] { solver.solve(Method::Fabrik, joints, target, options); },
-                                      [&] { solver.explain(joints, target, options); }},
-                                     99);
-    std::printf("\nHuman arm, target out of its limits (%s): solve %.0f us, explain %.0f us\n",
-                name(report.status), 1e6 * seconds[0], 1e6 * seconds[1]);
-}
-
-// ---- Whole solves by the default method, from rest and dragged, against the same without limits
-
 /// Hinges of changing axes, wide cones, all kinds in turn.
 enum class Kind { Hinges, Cones, Mixed };
 constexpr const char* kind_names[] = {"hinges", "cones", "all kinds"};
@@ -162,11 +60,15 @@ Limit cone(float swing, float twist) {
 }
 
 Arm arm_of(std::size_t bones, Kind kind) {
-    Arm arm = arm_of(bones, false);
-    for (std::size_t i = 0; i < bones && kind != Kind::Mixed; ++i)
-        arm.limits[i] = kind == Kind::Cones ? cone(60, 40)
-                                            : Limit::hinge(i % 2 ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0),
-                                                           -60 * degree, 100 * degree);
+    constexpr JointKind all[] = {JointKind::BallAndSocket, JointKind::Hinge,   JointKind::Saddle,
+                                 JointKind::Pivot,         JointKind::Gliding, JointKind::Suture};
+    Arm arm;
+    for (std::size_t i = 0; i < bones; ++i)
+        arm.limits.push_back(
+            kind == Kind::Mixed ? Limit::of(all[i % 6])
+            : kind == Kind::Cones
+                ? cone(60, 40)
+                : Limit::hinge(i % 2 ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), -60 * degree, 100 * degree));
     return arm;
 }
 
@@ -338,14 +240,10 @@ Worst forbidden_table() {
 }  // namespace
 
 int main(int count, char** arguments) {
-    iterations_table();
-    const double least = arrivals_table();
-    held_table();
     const Ratios met = met_limits_table();
     const Worst forbidden = forbidden_table();
     std::printf("\n");
-    bool holds = bench::claim("fabrik arrives from rest, percent of what can be reached", least, 95.0);
-    holds &=
+    bool holds =
         bench::claim("4 times an iteration without limits, over one with limits far off", 4 / met.far, 1);
     holds &= bench::claim("the same where hinges and cones meet them", 4 / met.met, 1);
     holds &= bench::claim("5 times that, over one with joints of all kinds", 5 / met.mixed, 1);

@@ -1,26 +1,17 @@
-// Cost of a rope substep: by particles, by colliders far and near, for many ropes with and without vector
-// units, and with two threads.
+// Cost of a rope substep: by particles, by colliders far and near, and for many ropes with and without vector
+// units.
 //
 // Claims: a rope of 1024 segments among 16 colliders takes at most 450 loops (measure.hpp) per frame; with
 // 256 distant colliders it takes at most 1.5 times as long as with none; one that resists bending takes at
 // most 6 times as long as one that does not; vector units pay off for 200 ropes of 32 segments. Times are
-// processor time, except for threads, whose gain needs an idle machine.
-#include "measure.hpp"
+// processor time.
+#include "rope_stage.hpp"
 #include "tendril/ik/many.hpp"
-#include "tendril/rope/world.hpp"
 
 namespace {
 
 using namespace tendril::bench;
 namespace rope = tendril::rope;
-
-/// A world and its workspace.
-struct Stage {
-    rope::World world;
-    rope::Workspace workspace;
-
-    void advance(double seconds) { world.advance(seconds, workspace); }
-};
 
 constexpr int repetitions = 9;
 constexpr double frame = 1.0 / 60.0;
@@ -36,7 +27,7 @@ Stage hung(int segments) {
                                             .radius = 0.01f,
                                             .pin_start = true,
                                             .pin_end = true}));
-    stage.advance(0.1);  // sizes its buffers
+    stage.advance(24);  // sizes its buffers
     return stage;
 }
 
@@ -52,7 +43,7 @@ void add_colliders(Stage& stage, int count, bool near) {
         }
         static_cast<void>(stage.world.add_collider(rope::Sphere{at, 0.05f}));
     }
-    stage.advance(0.1);
+    stage.advance(24);
 }
 
 /// Enough frames for a few milliseconds.
@@ -61,7 +52,7 @@ int frames_for(int segments) {
 }
 
 void run_frames(Stage& stage, int frames) {
-    for (int i = 0; i < frames; ++i) stage.advance(frame);
+    for (int i = 0; i < frames; ++i) stage.world.advance(frame, stage.workspace);
 }
 
 /// Microseconds per substep: without colliders, with 16 and 256 far away, with 16 and 256 near.
@@ -104,19 +95,6 @@ Gains particle_table() {
     return gains;
 }
 
-void solver_table() {
-    std::printf("\nus a substep, 1024 segments, no collider\n");
-    for (const rope::Solver solver : {rope::Solver::Relaxation, rope::Solver::Xpbd, rope::Solver::Direct}) {
-        Stage stage = hung(1024);
-        rope::Settings settings = stage.world.settings();
-        settings.solver = solver;
-        static_cast<void>(stage.world.set_settings(settings));
-        const double seconds = race({[&] { run_frames(stage, 16); }}, repetitions)[0];
-        std::printf("%-12s%12.2f   stretch %.1e\n", name(solver), seconds * 1e6 / 64.0,
-                    stage.world.length_error());
-    }
-}
-
 /// A rope that resists bending over one that does not: at rest, and swinging by one end.
 double bending_table() {
     const auto stage_of = [](float bending, bool swings) {
@@ -124,7 +102,7 @@ double bending_table() {
         const rope::BodyId id = stage.world.state().bodies.front().id;
         require(stage.world.set_bending(id, bending));
         if (swings) require(stage.world.unpin(1024));
-        stage.advance(0.1);
+        stage.advance(24);
         return stage;
     };
     std::printf("\nus a substep, 1024 segments, by bending stiffness\n");
@@ -156,39 +134,6 @@ rope::World hung_ropes(int ropes, int segments) {
     return world;
 }
 
-rope::World hung_cloths(int cloths, int cells) {
-    rope::World world;
-    for (int i = 0; i < cloths; ++i) {
-        static_cast<void>(world.add_cloth({.corner = {2.0f * static_cast<float>(i), 0, 0},
-                                           .along = {1, 0, 0},
-                                           .down = {0, 0, 1},
-                                           .columns = cells,
-                                           .rows = cells,
-                                           .pins = rope::ClothShape::Pins::Corners}));
-    }
-    return world;
-}
-
-/// Wall time; the library's own threads, which start anew in each substep.
-void thread_table() {
-    std::printf("\nus a substep by threads (and times one)\n");
-    const auto row = [](const char* what, const rope::World& start) {
-        std::vector<Stage> worlds(2);
-        std::vector<std::function<void()>> runs;
-        for (std::size_t i = 0; i < worlds.size(); ++i) {
-            worlds[i].world = start;
-            static_cast<void>(worlds[i].workspace.use_threads(static_cast<int>(i) + 1));
-            runs.push_back([&world = worlds[i]] { run_frames(world, 4); });
-        }
-        const std::vector<double> seconds = race(runs, repetitions, wall_seconds);
-        std::printf("%-32s1: %.1f   2: %.1f (%.2fx)\n", what, seconds[0] * 1e6 / 16.0,
-                    seconds[1] * 1e6 / 16.0, seconds[0] / seconds[1]);
-    };
-    row("200 ropes of 32 segments", hung_ropes(200, 32));
-    row("2000 ropes of 32 segments", hung_ropes(2000, 32));
-    row("8 cloths of 24 x 24 cells", hung_cloths(8, 24));
-}
-
 /// The speed-up of the widest unit over none.
 double crowd_table() {
     constexpr int ropes = 200, segments = 32;
@@ -214,10 +159,8 @@ double crowd_table() {
 
 int main(int count, char** arguments) {
     const Gains gains = particle_table();
-    solver_table();
     const double bending = bending_table();
     const double units = crowd_table();
-    thread_table();
     std::printf("\n");
     bool all = claim_loops("a frame of 1024 segments among 16 colliders", 1e-6 * gains.frame, 450);
     all &= claim("time without colliders over that with 256 far ones", gains.far, 0.67);

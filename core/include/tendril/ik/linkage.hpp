@@ -31,8 +31,8 @@
 // Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints, and with
 // targets O(m n^2 + n^3) more. A frame of a glide takes two or three iterations: a four-bar 1 us, Jansen's
 // leg 4 us, a Stewart platform 13 us. With a target, 19 frames in 20 take at most 15 iterations
-// (tests/bench/linkage.cpp); more where it jumps or meets a range (a delta robot at the end of its reach up
-// to 80). Solving does not allocate or throw; same input, same bits.
+// (tests/core/ik_linkage_verdict_test.cpp); more where it jumps or meets a range (a delta robot at the end of
+// its reach up to 80). Solving does not allocate or throw; same input, same bits.
 #pragma once
 
 #include <cstddef>
