@@ -24,6 +24,13 @@ std::vector<std::string> names(const auto& list, auto name_of) {
     return result;
 }
 
+/// "ball", "ball 2", ...: the first unused name.
+std::string free_name(const std::string& kind, auto taken) {
+    std::string name = kind;
+    for (int i = 2; taken(name); ++i) name = kind + " " + std::to_string(i);
+    return name;
+}
+
 /// An enumerator's name in commands and files, its title in panels, and a sentence of help.
 struct EnumRow {
     const char* name;

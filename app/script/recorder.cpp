@@ -9,18 +9,6 @@
 namespace tendril::app {
 namespace {
 
-const char* button_name(MouseButton button) {
-    switch (button) {
-        case MouseButton::Left:
-            return "left";
-        case MouseButton::Right:
-            return "right";
-        case MouseButton::Middle:
-            return "middle";
-    }
-    return "left";
-}
-
 /// One overload per event type, so that a missing one does not compile.
 struct LineOf {
     Json operator()(const MouseMove& e) const { return {{"mouse", "move"}, {"at", pixel(e.at)}}; }

@@ -39,9 +39,8 @@ Action command_line(Json line, const CommandTable& commands) {
 
 MouseButton mouse_button(const Json& line) {
     const Json& name = json_member(line, "button", "");
-    if (name == "left") return MouseButton::Left;
-    if (name == "right") return MouseButton::Right;
-    if (name == "middle") return MouseButton::Middle;
+    for (const MouseButton each : {MouseButton::Left, MouseButton::Right, MouseButton::Middle})
+        if (name == button_name(each)) return each;
     fail("button: expected \"left\", \"right\" or \"middle\", found " + json_summary(name));
 }
 

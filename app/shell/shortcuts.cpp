@@ -86,12 +86,9 @@ constexpr Binding bindings[] = {
 
 /// "Shift+right", with a `space` before "drag".
 std::string gesture(const Binding& binding, const char* space) {
-    const char* button = binding.button == MouseButton::Left    ? "left"
-                         : binding.button == MouseButton::Right ? "right"
-                                                                : "middle";
     const std::string name = std::string(binding.held.shift ? "Shift+" : "") +
-                             (binding.held.ctrl ? "Ctrl+" : "") + (binding.held.alt ? "Alt+" : "") + button +
-                             space + "drag";
+                             (binding.held.ctrl ? "Ctrl+" : "") + (binding.held.alt ? "Alt+" : "") +
+                             button_name(binding.button) + space + "drag";
     return capitalised(name);
 }
 

@@ -14,6 +14,10 @@
 namespace tendril::app {
 
 enum class MouseButton { Left, Right, Middle };
+/// In scripts and gestures.
+constexpr const char* button_name(MouseButton button) {
+    return button == MouseButton::Left ? "left" : button == MouseButton::Right ? "right" : "middle";
+}
 
 /// The pointer moved to `at`: window coordinates, from the top left.
 struct MouseMove {

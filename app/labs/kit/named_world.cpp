@@ -89,10 +89,8 @@ void NamedWorld::check_free(const char* operation, std::string_view body) const 
 std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, const std::string& stem) {
     set_slot(bodies_, body.index, {});
     set_slot(colours_, body.index, BodyColour::ByKind);
-    std::string name = wanted;
-    for (int i = 1; name.empty() || find(name) != nullptr; ++i)
-        name = i == 1 ? stem : stem + " " + std::to_string(i);
-    return bodies_[body.index] = name;
+    const auto taken = [&](const std::string& name) { return find(name) != nullptr; };
+    return bodies_[body.index] = wanted.empty() || taken(wanted) ? free_name(stem, taken) : wanted;
 }
 
 /// Pieces of "cloth" are called "cloth 2" and "cloth 3"; a piece of "cloth 2" is called "cloth 4".

@@ -67,14 +67,6 @@ std::vector<NamedParticle> named_particles(const NamedWorld& world, const Argume
 std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector<NamedParticle>& named,
                                        const char* one, const char* each);
 
-/// "ball", "ball 2", ...: the first unused name.
-template <class Taken>
-std::string free_name(const std::string& kind, Taken taken) {
-    std::string name = kind;
-    for (int i = 2; taken(name); ++i) name = kind + " " + std::to_string(i);
-    return name;
-}
-
 /// The particles that a drag still holds, as indices in the world, or in a rival's world.
 std::vector<std::size_t> held_particles(const RopeRacer& racer);
 bool is_held(const RopeRacer& racer, std::size_t particle);

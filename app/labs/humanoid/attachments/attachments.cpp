@@ -120,13 +120,6 @@ void append(NamedWorld& world, const std::string& name, const rope::State& from,
     world = NamedWorld(std::move(all), bodies, colliders);
 }
 
-std::string free_name(const Attachments& attachments, AttachmentKind kind) {
-    const std::string stem = attachment_kinds.name(kind);
-    std::string name = stem;
-    for (int i = 2; attachments.find(name) != nullptr; ++i) name = stem + " " + std::to_string(i);
-    return name;
-}
-
 }  // namespace
 
 std::shared_ptr<const NamedWorld> empty_world(rope::Settings settings) {
@@ -172,7 +165,9 @@ void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment w
     if (attachments.list.size() >= max_attachments)
         throw std::invalid_argument("there are " + std::to_string(max_attachments) +
                                     " attachments already, the maximum");
-    if (wanted.name.empty()) wanted.name = free_name(attachments, wanted.kind);
+    if (wanted.name.empty())
+        wanted.name = free_name(attachment_kinds.name(wanted.kind),
+                                [&](const std::string& name) { return attachments.find(name) != nullptr; });
     if (attachments.find(wanted.name) != nullptr)
         throw std::invalid_argument("name \"" + wanted.name + "\" is already used by another attachment");
     const std::size_t node = *wearer.loaded.skeleton().find(wanted.node);
