@@ -86,7 +86,8 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     EXPECT_EQ(element("arm 2 joint 6 mirrored").at("parent"), "arm 2 joint 5 mirrored");
     const RigPart& part = rig_part(app_.workspace());
     EXPECT_EQ(part.selected_element(), "arm 2 mirrored");
-    EXPECT_EQ(std::get<rig::ForEach>(part.rig.definition().units[0].operation).roots.size(), 6u);
+    const auto& mirrored_curl = std::get<rig::ForEach>(part.rig.definition().units[1].operation);
+    EXPECT_EQ(mirrored_curl.roots, (std::vector<std::string>{"arm 2 mirrored"})) << "it curls the other way";
 }
 
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
