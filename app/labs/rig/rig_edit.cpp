@@ -803,8 +803,27 @@ UnitOffer along_points(const RigPart& part, Json unit) {
         SharedJson(Json{{"unit", "spline"}, {"root", root->name}, {"tip", tip->name}, {"points", points}})};
 }
 
+/// Continues from the selected unit: a place, a spring that follows it, an aim at the spring.
 UnitOffer offered(const RigPart& part, std::string_view kind) {
     Json unit{{"unit", kind}};
+    const auto active = part.selected.elements.active();
+    const std::string selected = active ? part.rig.definition().elements[*active].name : "";
+    const Json given{{"unit", part.selected.unit}};
+    std::size_t gives = 0;  // as rig::Type
+    if (const auto row = unit_row(part, part.selected.unit); row && part.selected.unit_last)
+        gives = part.state->units[row->at].outputs.at(0).index();
+    const bool point = gives == static_cast<std::size_t>(rig::Type::Vector);
+    const bool follows = point || gives == static_cast<std::size_t>(rig::Type::Rotation);
+    if (kind == "spring_interpolate" && (follows || active))
+        unit["target"] = follows ? given : Json(selected);
+    if (kind.starts_with("transform_") && active) {
+        unit["transform"] = {{"element", selected}, {"of", "transform"}};
+        unit[kind == "transform_location" ? "location" : "direction"] = {0, 0.3, 0};  // as long as a new bone
+    }
+    if (kind == "aim" && point && active) {
+        unit.update({{"item", selected}, {"primary", {{"axis", {0, 1, 0}}, {"target", given}}}});
+        return {SharedJson(std::move(unit))};
+    }
     if (kind == "aim" || kind == "parent_constraint" || kind == "project_to_parent")
         return follower(part, std::move(unit));
     if (kind == "two_bone" || kind == "fabrik") return chain(part, std::move(unit));
@@ -814,8 +833,8 @@ UnitOffer offered(const RigPart& part, std::string_view kind) {
     if (kind == "for_each") {
         const rig::Element* item = item_of(part);
         if (item == nullptr) return {{}, "add an element first"};
-        const std::vector<std::string> selected = roots_selected(part);
-        unit["roots"] = selected.empty() ? Json::array({item->name}) : Json(selected);
+        const std::vector<std::string> roots = roots_selected(part);
+        unit["roots"] = roots.empty() ? Json::array({item->name}) : Json(roots);
         unit["body"] = Json::array();
     }
     if (kind == "set_curve") {
@@ -847,13 +866,14 @@ std::string selected_loop(const RigPart& part) {
 UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
     const std::string_view kind = rig::operation_name(operation);
     const std::string loop = selected_loop(part);
-    if (!loop.empty() && kind == "for_each")
-        return {{}, "a for-each cannot contain another; click an element first"};
+    if (!loop.empty() && kind == "for_each") return {{}, "not in a for-each; click an element first"};
     UnitOffer offer = offered(part, kind);
     if (loop.empty() || !offer.unit) return offer;
     Json unit = **offer.unit;
     unit["into"] = loop;
-    if (unit.contains("item")) unit["item"] = {{"item", "each"}};
+    for (const char* member : {"item", "target"})
+        if (unit.contains(member) && unit[member].is_string() && !unit.contains("root"))
+            unit[member] = {{"item", "each"}};
     if (kind.starts_with("transform_")) unit["transform"] = {{"item", "each"}, {"of", "transform"}};
     return {SharedJson(std::move(unit))};
 }

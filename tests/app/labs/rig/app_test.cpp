@@ -90,6 +90,25 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     EXPECT_EQ(mirrored_curl.roots, (std::vector<std::string>{"arm 2 mirrored"})) << "it curls the other way";
 }
 
+TEST_F(RigApp, ReasonsForUnitsThatCannotBeAddedAreWhole) {
+    run("rig.clear");
+    run("rig.element.add", {{"name", "head"}, {"kind", "bone"}});
+    run("rig.unit.add", {{"unit", "for_each"}, {"roots", {"head"}}});
+    FrameRecorder recorder;
+    wait(3);
+    const auto is = [](const char* text) { return [=](const DrawnText& each) { return each.text == text; }; };
+    const auto button = std::ranges::find_if(recorder.frame().texts, is("Add a unit"));
+    ASSERT_NE(button, recorder.frame().texts.end());
+    click(0.5f * (button->box.min + button->box.max), 3);
+    int reasons = 0;
+    for (const DrawnText& each : recorder.frame().texts) {
+        if (each.text.find(": ") == std::string::npos || each.box.min.y < 100.0f) continue;
+        ++reasons;
+        EXPECT_LE(each.box.max.x, each.clip.max.x) << each.text;
+    }
+    EXPECT_GE(reasons, 4);
+}
+
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
     run("rig.select", {{"element", "head"}, {"unit", "aim"}});
     wait(3);
