@@ -10,6 +10,7 @@
 
 #include "app/document/text.hpp"
 #include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"
 
 namespace tendril::app {
@@ -54,18 +55,21 @@ rig::Transform widened(const ClipPose& pose) {
     return {glm::dvec3(pose.translation), rig::normalised(glm::dquat(pose.rotation)), glm::dvec3(pose.scale)};
 }
 
-void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bones, rig::Hierarchy& tree) {
+/// Holds the poses within the limits. Returns the first bone that is over them; null if none is.
+const ClipBone* append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bones,
+                             rig::Hierarchy tree) {
+    const ClipBone* over = nullptr;
     for (const ClipBone& bone : bones) {
         const rig::Transform global = tree.get(bone.id, rig::Space::Global);
-        const rig::Transform within =
+        rig::Transform within =
             bone.parent ? rig::relative(tree.get(bone.parent, rig::Space::Global), global) : global;
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(within.translation[axis]) <= max_stored &&
-                  std::abs(within.scale[axis]) <= max_stored))
-                throw std::invalid_argument(
-                    "a bone is more than 1e9 m away, or scaled by more than that: a clip cannot hold it");
+        for (glm::dvec3* const each : {&within.translation, &within.scale}) {
+            const glm::dvec3 was = std::exchange(*each, glm::clamp(*each, -max_stored, max_stored));
+            if (over == nullptr && *each != was) over = &bone;
+        }
         poses.push_back({glm::vec3(within.translation), glm::quat(within.rotation), glm::vec3(within.scale)});
     }
+    return over;
 }
 
 /// Poses the bones; parents come first, so each bone's parent is already posed.
@@ -108,28 +112,47 @@ FrameLeft left_of(const rig::BackwardReport& report, const std::vector<ClipBone>
 
 }  // namespace
 
-RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch) {
-    TakeRunner take(part, scratch);
-    const std::vector<ClipBone> bones = clip_bones(part.rig, take.state().elements);
-    if (bones.empty()) throw std::invalid_argument("the rig has no bones to record");
-    if (frames > max_clip_frames || (frames + 1) * bones.size() > max_clip_poses)
-        throw std::invalid_argument("a clip of " + std::to_string(frames) + " frames of " +
-                                    std::to_string(bones.size()) + " bones is over the maximum of " +
-                                    std::to_string(max_clip_frames) + " frames and " +
-                                    std::to_string(max_clip_poses) + " poses");
-    if (frames * part.rig.work() > max_record_work)
-        throw std::invalid_argument("a clip of " + std::to_string(frames) +
-                                    " frames of so large a rig would take too long to record");
-    RigClip clip{.bones = {}, .poses = {}, .began = part.take.began};
+std::string seconds_text(std::size_t ticks) {
+    return fixed_text(static_cast<double>(ticks) * tick_seconds, 1) + " s";
+}
+
+std::size_t clip_room(const RigPart& part) {
+    const std::size_t bones = clip_bones(part.rig, part.state->elements).size();
+    const std::size_t solves =
+        std::max<std::size_t>(max_record_work / std::max<std::uint64_t>(part.rig.work(), 1), 1);
+    return bones == 0 ? 0 : std::min({max_clip_frames, max_clip_poses / bones - 1, solves});
+}
+
+void check_records(const RigPart& part) {
+    if (clip_room(part) == 0) throw std::invalid_argument("the rig has no bones to record");
+}
+
+std::string keep_clip(RigPart& part, RigPart played, std::size_t ticks, RigRuntime& runtime) {
+    check_records(played);
+    const std::vector<ClipBone> bones = clip_bones(played.rig, played.state->elements);
+    const std::size_t frames = std::min(ticks, clip_room(played));
+    std::string lacks;
+    if (frames < ticks)
+        lacks = "it holds only the last " + seconds_text(frames) + " of " + seconds_text(ticks);
+    go_to(played, static_cast<std::uint32_t>(ticks - frames), runtime);
+    RigClip clip{.bones = {}, .poses = {}, .began = played.take.now()};
     for (const ClipBone& bone : bones)
-        clip.bones.push_back(part.rig.definition().elements[bone.element].name);
+        clip.bones.push_back(played.rig.definition().elements[bone.element].name);
     clip.poses.reserve((frames + 1) * bones.size());
-    append_frame(clip.poses, bones, take.state().elements);
-    for (std::size_t i = 0; i < frames; ++i) {
-        take.tick();
-        append_frame(clip.poses, bones, take.state().elements);
+    bool over = false;
+    for (std::size_t i = 0; i <= frames; ++i) {
+        if (i > 0) go_to(played, played.take.tick + 1, runtime);
+        const ClipBone* const far = append_frame(clip.poses, bones, played.state->elements);
+        if (far == nullptr || std::exchange(over, true)) continue;
+        if (!lacks.empty()) lacks += "; ";
+        lacks += "from " + seconds_text(i) + " on, " +
+                 clip.bones[static_cast<std::size_t>(far - bones.data())] +
+                 " is held within 1e9 m and 1e9 times its size";
     }
-    return clip;
+    part.clip = std::make_shared<const RigClip>(std::move(clip));
+    part.clip_left.reset();
+    part.take.recording = false;
+    return lacks;
 }
 
 Character clip_character(const RigPart& part) {

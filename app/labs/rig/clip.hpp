@@ -10,9 +10,16 @@
 
 namespace tendril::app {
 
-/// Records the start of the take and its first `frames` ticks. Throws std::invalid_argument if the rig has no
-/// bones, or if the clip would be too large or take too long.
-RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
+class RigRuntime;
+
+/// Throws std::invalid_argument if the rig has no bones.
+void check_records(const RigPart& part);
+std::string seconds_text(std::size_t ticks);  ///< "12.3 s"
+/// The most ticks that fit in a clip of this rig; 0 if it has no bones.
+std::size_t clip_room(const RigPart& part);
+/// Keeps the end of the first `ticks` ticks of `played` as the part's clip, as much as fits, and ends a
+/// recording. Returns what the clip lacks; empty if nothing. Throws what check_records would throw.
+std::string keep_clip(RigPart& part, RigPart played, std::size_t ticks, RigRuntime& runtime);
 
 /// The rig's bones and the clip, as the writers of files take them. Throws std::invalid_argument if there is
 /// no clip, or if its bones differ from the rig's.

@@ -246,11 +246,12 @@ void add_element_commands(CommandTable& table) {
         "rig.element.remove", "Remove elements", {name, names},
         "Removes elements, unless others are below them or a unit uses them",
         [](RigPart& part, const Arguments& given) { remove_elements(part, elements_given(part, given)); }));
-    table.add(rig_command(
-        "rig.element.mirror", "Mirror a branch", {element_argument("name", true, "at its top")},
-        "Copies an element and all below it to the other side of its parent, across x; left becomes right in "
-        "names, and a for-each over it loops over the copy too",
-        [](RigPart& part, const Arguments& given) { mirror_branch(part, given.text("name")); }));
+    table.add(
+        rig_command("rig.element.mirror", "Mirror a branch", {element_argument("name", true, "at its top")},
+                    "Copies an element, all below it and the units that move them to the other side of its "
+                    "parent, across "
+                    "x; left becomes right in names",
+                    [](RigPart& part, const Arguments& given) { mirror_branch(part, given.text("name")); }));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the elements or the unit, whichever was selected last", remove_selected));
     table.add(rig_command(

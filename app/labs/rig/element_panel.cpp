@@ -180,8 +180,8 @@ void element_tree(const RigPanel& panel) {
     const Selection& selected = panel.part.selected.elements;
     if (row_button(
             "Mirror", 3, panel.part.selected.only_element().has_value(),
-            "Copies the selected element and all below it to the other side of its parent, across X. A "
-            "for-each over it loops over the copy too"))
+            "Copies the selected element, all below it and the units that move them to the other side of its "
+            "parent, across X"))
         panel.edit("rig.element.mirror", {{"name", panel.part.selected_element()}});
     if (row_button("Remove", 3, !selected.empty(),
                    selected.several() ? "Removes the selected elements" : "Removes the selected element"))

@@ -221,7 +221,9 @@ glm::dquat mirrored(const glm::dquat& q) {
 }
 
 rig::Transform mirrored(const rig::Transform& pose) {
-    return {pose.translation * glm::dvec3(-1.0, 1.0, 1.0), mirrored(pose.rotation), pose.scale};
+    return {{0.0 - pose.translation.x, pose.translation.y, pose.translation.z},
+            mirrored(pose.rotation),
+            pose.scale};
 }
 
 rig::Value mirrored(const rig::Control& control, rig::Value value) {
@@ -233,40 +235,6 @@ rig::Value mirrored(const rig::Control& control, rig::Value value) {
 }
 
 }  // namespace
-
-void mirror_branch(RigPart& part, const std::string& top) {
-    element_named(part, top);  // refuses a missing one
-    rig::Definition definition = part.rig.definition();
-    std::map<std::string, std::string> copies;
-    for (const std::size_t at : from_the_roots(part.rig, part.state->elements)) {
-        rig::Element copy = part.rig.definition().elements[at];
-        const std::string name = copy.name;
-        if (name != top && !copies.contains(copy.parent)) continue;
-        copy.name = on_other_side(name);
-        if (std::ranges::find(definition.elements, copy.name, &rig::Element::name) !=
-            definition.elements.end())
-            copy.name = name + " mirrored";
-        copies[name] = copy.name;
-        if (name != top) copy.parent = copies[copy.parent];
-        copy.initial = mirrored(copy.initial);
-        if (copy.control) copy.control = mirrored(*copy.control, name);
-        definition.elements.push_back(std::move(copy));
-    }
-    for (rig::Unit& unit : definition.units)
-        if (auto* const loop = std::get_if<rig::ForEach>(&unit.operation))
-            if (std::ranges::find(loop->roots, top) != loop->roots.end()) loop->roots.push_back(copies[top]);
-    redefine(part, std::move(definition));
-    rig::State& state = part.state.edit();
-    for (const auto& [from, to] : copies) {
-        const std::size_t at = *part.rig.element(from), there = *part.rig.element(to);
-        const rig::Transform input = state.elements.get(part.rig.id(at), rig::Space::Local, rig::Pose::Input);
-        require_ok(part.rig.set_element(state, there, rig::Space::Local, mirrored(input)));
-        if (const auto& control = part.rig.definition().elements[at].control)
-            require_ok(part.rig.set_control(state, there, mirrored(*control, state.controls[at])));
-    }
-    part.selected.elements.only(*part.rig.element(copies[top]));
-    part.selected.unit_last = false;
-}
 
 void remove_unit(RigPart& part, const std::string& name) {
     rig::Definition definition = part.rig.definition();
@@ -412,7 +380,7 @@ class UsedNames {
         }
     }
     void unit(rig::Unit& unit) {
-        const std::string* const around = std::exchange(unit_, &unit.name);
+        const rig::Unit* const around = std::exchange(unit_, &unit);
         members("", fields<rig::Unit>(), &unit);
         unit_ = around;
     }
@@ -421,22 +389,22 @@ class UsedNames {
         if (field.type == FieldType::Text && *field.of != '\0') {
             const bool curve = field.of == std::string_view("curves");
             std::string name(field.text(at));
-            take_(*unit_, place, curve ? Named::Curve : Named::Element, name);
+            take_(unit_->name, place, curve ? Named::Curve : Named::Element, name);
             if (name != field.text(at)) field.set_text(at, name);
         }
         if (field.type != FieldType::Other) return;
         rig::Input<rig::Value> input = rig::access_of(field).get(at);
-        if (input.literal() != nullptr) return;
+        if constexpr (requires { take_.source(*unit_, place, input); }) take_.source(*unit_, place, input);
         if (auto* const from = std::get_if<rig::FromElement>(&input.source))
             if (auto* const name = std::get_if<std::string>(&from->element.which))
-                take_(*unit_, place, Named::Element, *name);
+                take_(unit_->name, place, Named::Element, *name);
         if (auto* const from = std::get_if<rig::FromUnit>(&input.source))
-            take_(*unit_, place, Named::Unit, from->unit);
+            take_(unit_->name, place, Named::Unit, from->unit);
         rig::access_of(field).set(at, input);
     }
 
     const Take& take_;
-    const std::string* unit_ = nullptr;
+    const rig::Unit* unit_ = nullptr;
 };
 
 }  // namespace
@@ -449,6 +417,164 @@ std::optional<Use> first_use(rig::Units units, Named kind, const std::set<std::s
     };
     UsedNames(take).of(units);
     return found;
+}
+
+namespace {
+
+using Copies = std::map<std::string, std::string>;
+
+/// Gives a unit the names and the literals of the other side. The flags tell of the unit given last.
+struct OtherSide {
+    const Copies &elements, &units;
+    const RigPart& part;
+    rig::Transform plane;                      ///< across its x: the branch's parent at rest, in global space
+    mutable bool names = false, sets = false;  ///< elements of the branch
+    mutable bool sets_outside = false, counts = false;  ///< other elements; the elements of a for-each
+
+    rig::Unit of(const rig::Unit& unit) const {
+        names = sets = sets_outside = counts = false;
+        rig::Units copy{unit};
+        if (auto* const loop = std::get_if<rig::ForEach>(&copy[0].operation)) {
+            std::erase_if(loop->roots, [&](const std::string& root) { return !elements.contains(root); });
+            sets_outside = loop->roots.empty();
+        }
+        UsedNames(*this).of(copy);
+        if (const auto name = units.find(unit.name); name != units.end()) copy[0].name = name->second;
+        if (auto* const loop = std::get_if<rig::ForEach>(&copy[0].operation))
+            for (rig::Unit& each : loop->body)
+                if (const auto name = units.find(each.name); name != units.end()) each.name = name->second;
+        return copy[0];
+    }
+    void operator()(const std::string&, const std::string& place, Named kind, std::string& name) const {
+        const auto copy = elements.find(name);
+        const bool found = kind == Named::Element && copy != elements.end();
+        names |= found;
+        for (const char* set : {"item", "root", "tip", "roots", "curve"})
+            if (place == set) (found ? sets : sets_outside) = true;
+        if (found) name = copy->second;
+        if (const auto unit = units.find(name); kind == Named::Unit && unit != units.end())
+            name = unit->second;
+    }
+    void source(const rig::Unit& unit, const std::string& place, rig::Input<rig::Value>& input) const {
+        counts |= std::holds_alternative<rig::Each>(input.source);
+        rig::Value* const value = std::get_if<0>(&input.source);
+        if (value == nullptr) return;
+        const auto space = space_of(unit.operation, place);
+        const auto across = [&](const rig::Transform& pose) {
+            return space ? rig::compose(*space, mirrored(rig::relative(*space, pose))) : mirrored(pose);
+        };
+        // A force on a rotation is an axis to turn about.
+        const bool turns =
+            place == "force" && part.state->units[unit_row(part, unit.name)->at].outputs[0].index() ==
+                                    static_cast<std::size_t>(rig::Type::Rotation);
+        if (auto* const pose = std::get_if<rig::Transform>(value)) *pose = across(*pose);
+        if (auto* const turn = std::get_if<glm::dquat>(value)) *turn = across({.rotation = *turn}).rotation;
+        if (auto* const vector = std::get_if<glm::dvec3>(value))
+            *vector = (turns ? -1.0 : 1.0) * across({.translation = *vector}).translation;
+        if (auto* const roll = std::get_if<double>(value); roll && place.starts_with("roll_")) *roll *= -1.0;
+    }
+
+  private:
+    /// Of a literal in global space; none in a space that is mirrored too, such as the item's own.
+    std::optional<rig::Transform> space_of(const rig::Operation& operation, const std::string& place) const {
+        using Space = std::optional<rig::Transform>;
+        const rig::Transform directions{.rotation = plane.rotation};
+        const auto of = [&](const auto& does) -> Space {
+            if constexpr (requires { does.space; }) {
+                return does.space == rig::Space::Global ? Space(plane) : std::nullopt;
+            } else if constexpr (requires { does.primary; }) {
+                if (place.ends_with(".axis")) return std::nullopt;
+                const rig::AimInputs& aim = place.starts_with("secondary") ? *does.secondary : does.primary;
+                return aim.kind == rig::AimTarget::Direction && place != "transform" ? directions : plane;
+            }
+            if (place == "up" || place == "force") return directions;
+            constexpr bool is_chain = requires {
+                does.pole_target;
+            };
+            return is_chain || place == "transform" ? Space(plane) : std::nullopt;
+        };
+        return std::visit(of, static_cast<const rig::Operation::Variant&>(operation));
+    }
+};
+
+/// Copies the units that set the branch, and those that only these use, each after its original. One that the
+/// mirror does not change serves both sides. So does a for-each, unless its body has sides, or
+/// counts elements of the branch only.
+void mirror_units(rig::Units& units, const RigPart& part, const Copies& elements,
+                  const rig::Transform& plane) {
+    Copies copies;
+    std::set<std::string> taken, here, elsewhere;
+    collect_names(units, taken);
+    const OtherSide other_side{elements, copies, part, plane};
+    std::vector<bool> copied(units.size());
+    for (std::size_t i = units.size(); i-- > 0;) {
+        rig::Units one{other_side.of(units[i])};
+        const bool used = here.contains(units[i].name), only_here = !elsewhere.contains(units[i].name);
+        copied[i] = !other_side.sets_outside && (other_side.sets || used || (other_side.names && only_here));
+        const auto use = [&](const std::string&, const std::string&, Named kind, const std::string& name) {
+            if (kind == Named::Unit) (copied[i] ? here : elsewhere).insert(name);
+        };
+        UsedNames(use).of(one);
+    }
+    for (std::size_t i = 0, at = 0; i < copied.size(); ++i, ++at) {
+        rig::Unit copy = other_side.of(units[at]);
+        if (auto* const loop = std::get_if<rig::ForEach>(&units[at].operation); loop && other_side.sets) {
+            auto& other = std::get<rig::ForEach>(copy.operation);
+            const bool counts = other_side.counts && other.roots.size() == loop->roots.size();
+            if (other_side.sets_outside || (other.body == loop->body && !counts)) {
+                loop->roots.insert(loop->roots.end(), other.roots.begin(), other.roots.end());
+                continue;
+            }
+        }
+        if (!copied[i] || copy == units[at]) continue;
+        std::set<std::string> names;
+        collect_names({units[at]}, names);
+        for (const std::string& each : names) {
+            std::string& name = copies[each] = on_other_side(each);
+            if (taken.contains(name)) name = each;
+            while (!taken.insert(name).second) name += " mirrored";
+        }
+        copy = other_side.of(units[at]);
+        units.insert(++at, std::move(copy));
+    }
+}
+
+}  // namespace
+
+void mirror_branch(RigPart& part, const std::string& top) {
+    element_named(part, top);  // refuses a missing one
+    rig::Definition definition = part.rig.definition();
+    Copies copies;
+    for (const std::size_t at : from_the_roots(part.rig, part.state->elements)) {
+        rig::Element copy = part.rig.definition().elements[at];
+        const std::string name = copy.name;
+        if (name != top && !copies.contains(copy.parent)) continue;
+        copy.name = on_other_side(name);
+        if (std::ranges::find(definition.elements, copy.name, &rig::Element::name) !=
+            definition.elements.end())
+            copy.name = name + " mirrored";
+        copies[name] = copy.name;
+        if (name != top) copy.parent = copies[copy.parent];
+        copy.initial = mirrored(copy.initial);
+        if (copy.control) copy.control = mirrored(*copy.control, name);
+        definition.elements.push_back(std::move(copy));
+    }
+    rig::Hierarchy tree = part.state->elements;
+    const auto above = tree.parent(part.rig.id(*part.rig.element(top)));
+    rig::Transform plane = above ? tree.get(above, rig::Space::Global, rig::Pose::Initial) : rig::Transform();
+    plane.scale = glm::dvec3(1.0);
+    mirror_units(definition.units, part, copies, plane);
+    redefine(part, std::move(definition));
+    rig::State& state = part.state.edit();
+    for (const auto& [from, to] : copies) {
+        const std::size_t at = *part.rig.element(from), there = *part.rig.element(to);
+        const rig::Transform input = state.elements.get(part.rig.id(at), rig::Space::Local, rig::Pose::Input);
+        require_ok(part.rig.set_element(state, there, rig::Space::Local, mirrored(input)));
+        if (const auto& control = part.rig.definition().elements[at].control)
+            require_ok(part.rig.set_control(state, there, mirrored(*control, state.controls[at])));
+    }
+    part.selected.elements.only(*part.rig.element(copies[top]));
+    part.selected.unit_last = false;
 }
 
 namespace {
@@ -677,8 +803,27 @@ UnitOffer along_points(const RigPart& part, Json unit) {
         SharedJson(Json{{"unit", "spline"}, {"root", root->name}, {"tip", tip->name}, {"points", points}})};
 }
 
+/// Continues from the selected unit: a place, a spring that follows it, an aim at the spring.
 UnitOffer offered(const RigPart& part, std::string_view kind) {
     Json unit{{"unit", kind}};
+    const auto active = part.selected.elements.active();
+    const std::string selected = active ? part.rig.definition().elements[*active].name : "";
+    const Json given{{"unit", part.selected.unit}};
+    std::size_t gives = 0;  // as rig::Type
+    if (const auto row = unit_row(part, part.selected.unit); row && part.selected.unit_last)
+        gives = part.state->units[row->at].outputs.at(0).index();
+    const bool point = gives == static_cast<std::size_t>(rig::Type::Vector);
+    const bool follows = point || gives == static_cast<std::size_t>(rig::Type::Rotation);
+    if (kind == "spring_interpolate" && (follows || active))
+        unit["target"] = follows ? given : Json(selected);
+    if (kind.starts_with("transform_") && active) {
+        unit["transform"] = {{"element", selected}, {"of", "transform"}};
+        unit[kind == "transform_location" ? "location" : "direction"] = {0, 0.3, 0};  // as long as a new bone
+    }
+    if (kind == "aim" && point && active) {
+        unit.update({{"item", selected}, {"primary", {{"axis", {0, 1, 0}}, {"target", given}}}});
+        return {SharedJson(std::move(unit))};
+    }
     if (kind == "aim" || kind == "parent_constraint" || kind == "project_to_parent")
         return follower(part, std::move(unit));
     if (kind == "two_bone" || kind == "fabrik") return chain(part, std::move(unit));
@@ -688,8 +833,8 @@ UnitOffer offered(const RigPart& part, std::string_view kind) {
     if (kind == "for_each") {
         const rig::Element* item = item_of(part);
         if (item == nullptr) return {{}, "add an element first"};
-        const std::vector<std::string> selected = roots_selected(part);
-        unit["roots"] = selected.empty() ? Json::array({item->name}) : Json(selected);
+        const std::vector<std::string> roots = roots_selected(part);
+        unit["roots"] = roots.empty() ? Json::array({item->name}) : Json(roots);
         unit["body"] = Json::array();
     }
     if (kind == "set_curve") {
@@ -721,13 +866,14 @@ std::string selected_loop(const RigPart& part) {
 UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
     const std::string_view kind = rig::operation_name(operation);
     const std::string loop = selected_loop(part);
-    if (!loop.empty() && kind == "for_each")
-        return {{}, "a for-each cannot contain another; click an element first"};
+    if (!loop.empty() && kind == "for_each") return {{}, "not in a for-each; click an element first"};
     UnitOffer offer = offered(part, kind);
     if (loop.empty() || !offer.unit) return offer;
     Json unit = **offer.unit;
     unit["into"] = loop;
-    if (unit.contains("item")) unit["item"] = {{"item", "each"}};
+    for (const char* member : {"item", "target"})
+        if (unit.contains(member) && unit[member].is_string() && !unit.contains("root"))
+            unit[member] = {{"item", "each"}};
     if (kind.starts_with("transform_")) unit["transform"] = {{"item", "each"}, {"of", "transform"}};
     return {SharedJson(std::move(unit))};
 }

@@ -21,7 +21,7 @@ void redefine(RigPart& part, rig::Definition definition);
 /// Refuses to remove the parent of a remaining element, or an element that a unit uses; the message names it.
 void remove_elements(RigPart& part, const std::vector<std::size_t>& elements);
 /// Copies an element and all below it to the other side of its parent, mirrored in the parent's x, and
-/// selects the copy. Left becomes right in names, and a for-each over the element loops over the copy too.
+/// selects the copy. The units that set them are mirrored too. Left becomes right in names.
 void mirror_branch(RigPart& part, const std::string& top);
 /// Searches bodies too. Refuses to remove a unit whose output another unit uses.
 void remove_unit(RigPart& part, const std::string& name);

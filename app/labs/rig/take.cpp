@@ -242,29 +242,17 @@ void TakeRunner::keys_before(double ticks) {
     for (; next_key_ < part_.take.keys->size(); ++next_key_) {
         const TakeKey& key = (*part_.take.keys)[next_key_];
         if (!(key.tick < ticks - rounding)) return;
-        apply(key);
+        if (key.element == TakeKey::solve)
+            part_.rig.solve(state_, 0.0, scratch_);
+        else
+            apply_key(part_.rig, key, state_);
     }
-}
-
-void TakeRunner::apply(const TakeKey& key) {
-    if (key.element == TakeKey::solve)
-        part_.rig.solve(state_, 0.0, scratch_);
-    else
-        apply_key(part_.rig, key, state_);
 }
 
 void TakeRunner::frame(double seconds, double ticks) {
     keys_before(ticks);
     walk(part_.rig, part_.walks, state_, ticks);
     part_.rig.solve(state_, seconds, scratch_);
-}
-
-void TakeRunner::tick() {
-    ++ticks_;
-    frame(tick_seconds, ticks_);
-    const std::size_t solved = keys_at(part_.take, ticks_).solved.size();
-    for (const std::size_t end = next_key_ + solved; next_key_ < end; ++next_key_)
-        apply((*part_.take.keys)[next_key_]);
 }
 
 namespace {
@@ -323,6 +311,13 @@ rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks) 
 
 // Ticks and background work of the Rig lab.
 
+void keep_recording(Workspace& workspace, RigPart& part, const RigPart& before) {
+    if (!part.take.recording || part.take.start == before.take.start || clip_room(before) == 0) return;
+    const std::string lacks = keep_clip(part, before, before.take.last, rig_runtime(workspace));
+    workspace.toast("That ended the recording: " + seconds_text(part.clip->frames() - 1) +
+                    " are kept as the clip" + (lacks.empty() ? "" : "; " + lacks));
+}
+
 bool RigLab::moving(const Workspace& workspace) const {
     return time_moves(rig_part(workspace));
 }
@@ -332,7 +327,14 @@ void RigLab::step(Workspace& workspace) const {
     if (due == 0) return;
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    for (int i = 0; i < due; ++i) pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
+    for (int i = 0; i < due; ++i) {
+        if (part.take.recording && part.take.tick >= max_take_ticks) {
+            const RigPart before = part;
+            begin_take(part);
+            keep_recording(workspace, part, before);
+        }
+        pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
+    }
     if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 

@@ -10,6 +10,8 @@ namespace tendril::app {
 
 /// Starts a new take at the current time, because the future no longer follows from the take so far.
 void begin_take(RigPart& part);
+/// Ends a recording whose take `part` has left since `before`: keeps the clip, and says so.
+void keep_recording(Workspace& workspace, RigPart& part, const RigPart& before);
 /// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);
 /// Solves with a zero time step. If that changes anything, records it in the take and discards the later
@@ -31,17 +33,14 @@ class TakeRunner {
     TakeRunner(const RigPart& part, rig::Workspace& scratch);
     /// Advances by a frame of `seconds`, which ends `ticks` after the start of the take (may be fractional).
     void frame(double seconds, double ticks);
-    void tick();  ///< as pass_tick does
     rig::State& state() { return state_; }
 
   private:
     void keys_before(double ticks);
-    void apply(const TakeKey& key);
 
     const RigPart& part_;
     rig::Workspace& scratch_;
     rig::State state_;
-    std::uint32_t ticks_ = 0;
     std::size_t next_key_ = 0;
 };
 

@@ -102,6 +102,7 @@ void solve(Workspace& workspace, const Arguments& given) {
         } else {
             solve_now(part, runtime, workspace.clock.measured);
         }
+        keep_recording(workspace, part, before);
     });
 }
 
@@ -109,7 +110,12 @@ void solve(Workspace& workspace, const Arguments& given) {
 
 Command rig_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                     void (*change)(RigPart&, const Arguments&)) {
-    return part_command<RigPart>(rig_lab, name, title, std::move(arguments), help, change);
+    return part_command<RigPart>(
+        rig_lab, name, title, std::move(arguments), help, Effect::Edit,
+        [change](Workspace& workspace, RigPart& part, const RigPart& before, const Arguments& given) {
+            change(part, given);
+            keep_recording(workspace, part, before);
+        });
 }
 
 Argument element_argument(const char* name, bool required, const char* help) {
@@ -279,7 +285,7 @@ std::uint32_t ticks_worth_looking_at(const RigPart& part) {
 /// Starts a new take, and plays.
 void start_recording(Workspace& workspace, const Arguments&) {
     change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
-        static_cast<void>(record_clip(part, 0, rig_runtime(workspace).workspace(part.rig)));  // refuses
+        check_records(part);
         begin_take(part);
         part.take.recording = true;
     });
@@ -292,13 +298,11 @@ void record(Workspace& workspace, const Arguments& given) {
     change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
         if (part.take.recording && part.take.last == 0)
             throw std::invalid_argument("nothing has been played since rig.clip.start");
-        const std::size_t frames =
+        const std::size_t ticks =
             given.has("seconds") ? static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds))
-                                 : std::min<std::size_t>(ticks_worth_looking_at(part), max_clip_frames);
-        part.clip = std::make_shared<const RigClip>(
-            record_clip(part, frames, rig_runtime(workspace).workspace(part.rig)));
-        part.clip_left.reset();
-        part.take.recording = false;
+                                 : ticks_worth_looking_at(part);
+        if (const std::string lacks = keep_clip(part, part, ticks, rig_runtime(workspace)); !lacks.empty())
+            workspace.toast("The clip is recorded: " + lacks);
     });
 }
 

@@ -103,9 +103,8 @@ void clip_rows(const RigPart& part, Emit& emit) {
     if (!take.recording) {
         if (row_button("Record", 3, true, "Starts a new take, and keeps it as a clip at Stop"))
             emit("rig.clip.start");
-    } else if (const std::string seconds = fixed_text(take.last * tick_seconds, 1);
-               row_button(("Stop " + seconds + " s###stop").c_str(), 3, take.last > 0,
-                          "Keeps how the bones moved since Record, or since a later change of the rig")) {
+    } else if (row_button(("Stop " + seconds_text(take.last) + "###stop").c_str(), 3, take.last > 0,
+                          "Keeps how the bones moved since Record. A change of the rig stops it too")) {
         emit("rig.clip.record");
     }
     if (running) {
@@ -123,7 +122,10 @@ void clip_rows(const RigPart& part, Emit& emit) {
         ImGui::ProgressBar(
             static_cast<float>(part.clip_left->done()) / static_cast<float>(part.clip->frames()),
             {-1.0f, 0.0f}, "");
-    if (part.clip) note(clip_text(part));
+    if (const std::size_t room = clip_room(part); take.recording && take.last > room)
+        note("The clip will hold the last " + seconds_text(room) + ".");
+    else if (part.clip)
+        note(clip_text(part));
 }
 
 void rate_rows(const RigPart& part, Emit& emit) {

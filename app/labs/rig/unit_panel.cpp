@@ -62,8 +62,11 @@ void add_unit_menu(const RigPanel& panel) {
     const bool pressed =
         row_button("Add a unit", 1, true,
                    ("Choose a kind; the new unit runs last" + (loop.empty() ? "" : " in " + loop)).c_str());
-    if (!begin_list_of_button("add unit", pressed)) return;
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
+    constexpr float width = 30.0f;  // em: room for the longest reason why not
+    constexpr int kinds = std::variant_size_v<rig::Operation::Variant>;
+    if (!begin_list_of_button("add unit", pressed, {.width = width * ImGui::GetFontSize(), .rows = kinds}))
+        return;
+    for (std::size_t i = 0; i < kinds; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
         if (!list_row(capitalised(operation_title(i)), false, offer.unit ? nullptr : offer.needs)) continue;
         ArgumentList arguments;

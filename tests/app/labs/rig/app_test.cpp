@@ -86,7 +86,27 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     EXPECT_EQ(element("arm 2 joint 6 mirrored").at("parent"), "arm 2 joint 5 mirrored");
     const RigPart& part = rig_part(app_.workspace());
     EXPECT_EQ(part.selected_element(), "arm 2 mirrored");
-    EXPECT_EQ(std::get<rig::ForEach>(part.rig.definition().units[0].operation).roots.size(), 6u);
+    const auto& mirrored_curl = std::get<rig::ForEach>(part.rig.definition().units[1].operation);
+    EXPECT_EQ(mirrored_curl.roots, (std::vector<std::string>{"arm 2 mirrored"})) << "it curls the other way";
+}
+
+TEST_F(RigApp, ReasonsForUnitsThatCannotBeAddedAreWhole) {
+    run("rig.clear");
+    run("rig.element.add", {{"name", "head"}, {"kind", "bone"}});
+    run("rig.unit.add", {{"unit", "for_each"}, {"roots", {"head"}}});
+    FrameRecorder recorder;
+    wait(3);
+    const auto is = [](const char* text) { return [=](const DrawnText& each) { return each.text == text; }; };
+    const auto button = std::ranges::find_if(recorder.frame().texts, is("Add a unit"));
+    ASSERT_NE(button, recorder.frame().texts.end());
+    click(0.5f * (button->box.min + button->box.max), 3);
+    int reasons = 0;
+    for (const DrawnText& each : recorder.frame().texts) {
+        if (each.text.find(": ") == std::string::npos || each.box.min.y < 100.0f) continue;
+        ++reasons;
+        EXPECT_LE(each.box.max.x, each.clip.max.x) << each.text;
+    }
+    EXPECT_GE(reasons, 4);
 }
 
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {

@@ -128,11 +128,28 @@ TEST_F(RigClips, HoldsOnlyTheTicksBetweenRecordAndStop) {
     run("undo");
     EXPECT_TRUE(part().take.recording);
     run("rig.motion", {{"name", "head"}, {"path", "still"}});
-    wait(10);
-    EXPECT_EQ(part().take.last, 10u) << "a new take, of a rig at rest";
+    EXPECT_FALSE(part().take.recording);
+    EXPECT_EQ(part().clip->frames(), 25u);
+    tells("ended the recording 0.4 s are kept as the clip");
+    run("undo");
+    EXPECT_TRUE(part().take.recording);
     run("rig.clip.clear");
     EXPECT_FALSE(part().take.recording);
     EXPECT_EQ(part().clip, nullptr);
+}
+
+TEST_F(RigClips, HoldsTheEndAndSaysWhatItLacks) {
+    run("rig.element.add", {{"name", "away"}, {"kind", "null"}, {"local", transform(1e9, 0, 0)}});
+    element("far", "away", transform(1e9, 1, 0));
+    run("rig.clip.start");
+    wait(3900);
+    set_folded(workspace.settings, rig_lab, false);
+    EXPECT_TRUE(test::says(test::PanelReader().panel(lab(), workspace), "will hold the last 60.0 s"));
+    run("rig.clip.record");
+    EXPECT_EQ(part().clip->frames(), 3601u);
+    EXPECT_EQ(part().clip->began, part().take.began + 300);
+    EXPECT_EQ(part().clip->poses.front().translation, glm::vec3(1e9f, 1, 0));
+    tells("it holds only the last 60.0 s of 65.0 s; from 0.0 s on, far is held within 1e9 m");
 }
 
 TEST_F(RigClips, IsUndoneCancelledAndCleared) {

@@ -1,6 +1,7 @@
 // The Rig lab's commands: their effects, when the lab solves, and --state.
 #include <array>
 #include <iterator>
+#include "app/labs/rig/values.hpp"
 
 #include "app/shell/command_line.hpp"
 #include "rig_support.hpp"
@@ -172,6 +173,57 @@ TEST_F(RigCommands, AMirroredBranchIsAMirrorImageNowAndAtRest) {
     run("rig.preset", {{"name", "secondary"}});
     run("rig.element.mirror", {{"name", "head"}});
     EXPECT_EQ(part().selected_element(), "head mirrored");
+}
+
+TEST_F(RigCommands, AMirroredBranchMovesAsTheMirrorImage) {
+    const auto mirrored = [](const rig::Transform& pose) -> rig::Transform {
+        const glm::dquat q = pose.rotation;
+        return {pose.translation * glm::dvec3(-1, 1, 1), {q.w, q.x, -q.y, -q.z}, pose.scale};
+    };
+    const rig::Transform rest{{2, 1, 0.5}, glm::angleAxis(1.2, glm::normalize(glm::dvec3(0.2, 1, 0.1)))};
+    const std::vector<std::string> bones{"antenna.L", "tip.L", "antenna.R", "tip.R"};
+    const auto play = [&](bool other_way) {
+        run("rig.clear");
+        element("head", "", transform_json(rest));
+        element("antenna.L", "head", transform(0.3, 1, 0));
+        element("tip.L", "antenna.L", transform(0, 0.4, 0.1));
+        for (const Json& each : read_json_file(test::source_path("tests/app/data/antenna_units.json")))
+            unit(each);
+        const std::size_t steps = workspace.history.size();
+        run("rig.element.mirror", {{"name", "antenna.L"}});
+        EXPECT_EQ(workspace.history.size(), steps + 1);
+        std::vector<rig::Transform> poses;
+        for (int i = 0; i < 180; ++i) {
+            const double t = i / 60.0;
+            rig::Transform step{{0.3 * std::sin(3 * t), 0.1 * t, 0.2 * std::cos(5 * t)},
+                                glm::angleAxis(0.5 * std::sin(4 * t), glm::normalize(glm::dvec3(1, 2, -1)))};
+            if (other_way) step = mirrored(step);
+            const Json head = transform_json(rig::compose(rest, step));
+            run("rig.element.set", {{"name", "head"}, {"transform", head}});
+            tick();
+            for (const std::string& bone : bones) {
+                const rig::ElementId id = part().rig.id(*part().rig.element(bone));
+                poses.push_back(
+                    rig::relative(rest, rig::Hierarchy(part().state->elements).get(id, rig::Space::Global)));
+            }
+        }
+        return poses;
+    };
+    const std::vector<rig::Transform> one = play(false), other = play(true);
+    std::string names;
+    for (const std::string& each : part().rig.unit_names()) names += each + ", ";
+    EXPECT_EQ(names,
+              "place.L, place.R, trail, trail mirrored, aim.L, aim.R, sway, sway mirrored, "
+              "bend, twist, turn, bend mirrored, twist mirrored, turn mirrored, lift, up, "
+              "reach, reach mirrored, nod, ");
+    constexpr double rounding = 1e-12;  // of doubles near 1; a spring forgets, so it does not add up
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        SCOPED_TRACE(bones[i % 4] + ", tick " + std::to_string(i / 4));
+        const rig::Transform expected = mirrored(one[i]), got = other[i % 4 < 2 ? i + 2 : i - 2];
+        expect_near(got.translation, expected.translation, rounding);
+        ASSERT_NEAR(std::abs(glm::dot(got.rotation, expected.rotation)), 1.0, rounding);
+    }
+    EXPECT_GT(glm::distance(one[4].translation, one[400].translation), 0.1) << "it moves";
 }
 
 TEST_F(RigCommands, ATickSolvesAfterChangesAndThenRests) {

@@ -165,6 +165,14 @@ TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
     EXPECT_EQ(offered("parent_constraint").at("item"), "b");
     EXPECT_EQ(offered("parent_constraint").at("parents"), parents);
     EXPECT_EQ(offered("aim").at("primary").at("target"), "right");
+    EXPECT_EQ(offered("spring_interpolate").at("target"), "b");
+    EXPECT_EQ(offered("transform_location").at("transform"), (Json{{"element", "b"}, {"of", "transform"}}));
+    run("rig.unit.add", offered("transform_location"));
+    EXPECT_EQ(offered("spring_interpolate").at("target"), (Json{{"unit", "transform_location"}}));
+    run("rig.unit.add", offered("spring_interpolate"));
+    EXPECT_EQ(offered("aim").at("item"), "b");
+    EXPECT_EQ(offered("aim").at("primary").at("target"), (Json{{"unit", "spring_interpolate"}}));
+    run("undo"), run("undo");
     run("rig.unit.add", offered("for_each"));
     EXPECT_EQ(offered("aim").at("item"), (Json{{"item", "each"}})) << "a selected for-each gets the new unit";
     run("rig.unit.add", offered("aim"));
