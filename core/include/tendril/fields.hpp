@@ -1,6 +1,6 @@
-// The fields of a struct of settings or of a state, described once: name, unit and range, and the structs,
-// lists and variants in it. Checks, files, commands, panels and exported code read the same rows. So can an
-// engine's editor, which can then show settings that it does not know:
+// Tables of the fields of settings and states: each field's name, unit and range, with nested structs, lists
+// and variants. Checks, files, commands, panels and exported code all read the same rows. So can an engine's
+// editor, to show settings that it knows nothing about:
 //
 //     for (const Field& field : fields<rope::Settings>())
 //         if (field.type == FieldType::Number && !field.count) slider(field.name, field.slider());
@@ -69,16 +69,15 @@ struct FieldKind {
     std::string_view in_code;         ///< "tendril::rig::Aim"
 };
 
-/// Functions for values of type Other. A module derives a struct with further functions from it, as
-/// rig::InputAccess.
+/// Functions for values of type Other. A module adds functions in a derived struct, such as rig::InputAccess.
 struct FieldAccess {
     bool (*same)(const void* one, const void* other);
 };
 
 /// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
 ///
-/// A list of values or structs has a `count`. Type, range and unit are an element's; `get`, `set` and `empty`
-/// then take the element's address, and for a value of type Other the value's. A text has `text` and
+/// A list of values or structs has a `count`: type, range and unit then describe an element, and `get`, `set`
+/// and `empty` take its address. For type Other they take the address of the value. A text has `text` and
 /// `set_text` instead. Setting a variant's index gives it a fresh struct of that kind.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
@@ -89,9 +88,9 @@ struct Field {
     FieldRange range{};     ///< 0 to 1 for a flag, 0 to the last index for a choice; may be infinite
     bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
-    std::string_view in_code{};  ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
-                                 ///< member, where it is not `name`
-    const char* of = "";         ///< the list that an index or a name refers to, in a struct around it
+    std::string_view in_code{};  ///< a choice's enumeration: "tendril::ik::SketchHold"; otherwise the member,
+                                 ///< if it differs from `name`
+    const char* of = "";         ///< the list that an index or a name refers to, in an enclosing struct
     FieldRange usual{};          ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
@@ -113,7 +112,7 @@ struct Field {
     std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< number of elements in a list
     std::span<const char* const> names{};                         ///< the elements' names: "left", "right"
     bool in_line = false;   ///< in files the named elements are members of the struct itself
-    bool sparse = false;    ///< files omit it, or of a struct the members, at their defaults
+    bool sparse = false;    ///< files omit it at its default; for a struct, members at theirs
     bool required = false;  ///< files must have it: there is no default
 
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
@@ -284,8 +283,8 @@ FieldValue to_field(const Value& value) noexcept {
         return {value.x, value.y, value.z};
 }
 
-/// Converts to the type. For integers, NaN and values out of the type's range become its maximum, or its
-/// minimum if it is signed and they are below: still out of any field's range.
+/// Converts to the type. For an integer, NaN and values out of the type's range become its maximum, or its
+/// minimum if it is signed and they are below it, so no field accepts them.
 template <class Value>
 Value number_from(double given) noexcept {
     if constexpr (std::is_enum_v<Value>) {
@@ -328,7 +327,7 @@ inline void set_index(void* at, const FieldValue& given) noexcept {
     *static_cast<std::size_t*>(at) = number_from<std::size_t>(given[0]);
 }
 
-/// "tendril::ik::SketchHold"; empty where the compiler does not say.
+/// "tendril::ik::SketchHold"; empty if the compiler cannot tell.
 template <class Value>
 constexpr std::string_view type_name() noexcept {
 #ifdef __GNUC__
@@ -577,7 +576,7 @@ constexpr Field nested(const char* name) noexcept {
 }
 
 /// A row for a std::variant of structs with tables, or a class derived from one; `names`: its kinds' names,
-/// in order. Files have the name, and beside it the fields of that kind.
+/// in order. Files store the name with the fields of that kind.
 template <auto member>
 constexpr Field kinds(const char* name, std::span<const char* const> names) noexcept {
     return {.name = name,
@@ -614,8 +613,8 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
     return row;
 }
 
-/// A row for an index, or a list of indices, into the list `of` of a struct around this one. `optional`: -1
-/// means none.
+/// A row for an index, or a list of indices, into the list `of` of an enclosing struct. `optional`: -1 means
+/// none.
 template <auto member>
 constexpr Field index(const char* name, const char* of, bool optional = false) noexcept {
     Field row{};

@@ -72,8 +72,8 @@ struct Reduced {
     double cosine() const { return Reduced{angle, quarters + 1}.sine(); }
 };
 
-/// Of a finite angle of 2^20 or more (M. Payne, R. Hanek, "Radian reduction for trigonometric functions",
-/// 1983): its 53 bits times those 192 bits of 2 / pi that tell the quarter of a turn, and the place in it.
+/// For a finite angle of 2^20 or more (M. Payne, R. Hanek, "Radian reduction for trigonometric functions",
+/// 1983): its 53 bits times the 192 bits of 2 / pi that determine the quarter turn and the position in it.
 Reduced reduce_huge(double radians) {
     static constexpr std::uint32_t two_over_pi[]{
         0,           0,           0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u,
@@ -85,8 +85,7 @@ Reduced reduce_huge(double radians) {
     const auto bits = std::bit_cast<std::uint64_t>(radians);
     const int exponent = static_cast<int>(bits >> 52 & 0x7ff) - 1075;
     const std::uint64_t digits = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{1} << 52;
-    // The table starts 64 bits before the point. Bits that count whole turns are left out but for the last
-    // two.
+    // The table starts 64 bits before the point. Only the last two bits that count whole turns are kept.
     const int first = exponent + 62, word = first / 32, shift = first % 32;
     const auto part = [&](int k) {
         const std::uint64_t next = shift > 0 ? two_over_pi[word + k + 1] : 0u;
@@ -182,7 +181,7 @@ double angle_of(double y, double x) {
                           zz * zz * ((1.0 / 11 - z * (1.0 / 13)) + zz * (1.0 / 15));
     Sum angle{t, -t * z * series};
     if (exact && k < 2.0 && above * above > 0x1p-1000) {
-        // Here t is most of the result: it needs what the division and its operands rounded off.
+        // Here t is most of the result, so it adds what rounding cut from the division and its operands.
         const Sum product = multiply(t, below);
         const double rounded = (along - below) + c * across;
         angle.rest += (((above - product.value) - product.rest) - t * rounded) / below;

@@ -1,4 +1,4 @@
-// A loop whose parts one thread shares with idle threads. Not installed.
+// A loop that one thread splits into parts and shares with idle threads. Not installed.
 //
 //     ForkJoin loops;
 //     loops.begin();                                     // one thread, the owner of the work

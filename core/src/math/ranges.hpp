@@ -17,8 +17,8 @@ bool is_in_range(const void* object) noexcept {
     else
         return fits(rows[at], object);
 }
-/// Whether each value is in its row's range; lists and structs are not looked at. The loop is unrolled and
-/// the accessors inlined, so it costs as little as comparisons by hand.
+/// Whether each value is in its row's range; lists and structs are skipped. The loop is unrolled and the
+/// accessors inlined, so it costs as little as comparisons by hand.
 template <const auto& rows>
 bool are_in_range(const void* object) noexcept {
     return [object]<std::size_t... at>(std::index_sequence<at...>) {

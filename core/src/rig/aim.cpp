@@ -22,8 +22,8 @@ Target target_of(const AimPart& part, const Transform& item, double total_weight
     return {direction_of(offset, min_length), weight(part.weight) * total_weight};
 }
 
-/// `from` blended towards `to` along the chord. Half way to the opposite direction the chord passes through
-/// zero: the result is then a quarter turn, about the axis of the half turn.
+/// `from` blended towards `to` along the chord. Halfway to the opposite direction the chord passes through
+/// zero; the result is then a quarter turn about the axis of the half turn.
 glm::dvec3 blend_direction(const glm::dvec3& from, const glm::dvec3& to, double part,
                            const glm::dvec3& side) noexcept {
     if (part == 1.0) return to;

@@ -73,8 +73,7 @@ void Hierarchy::resolve_local(Values& pose, Index at) noexcept {
     ++recomputations_;
 }
 
-/// Called before the stored global of `at` is overwritten, to which the children's pending locals are
-/// relative.
+/// Called before the stored global of `at` is overwritten: the children's pending locals are relative to it.
 void Hierarchy::resolve_children(Values& pose, Index at) noexcept {
     while (pose.stamps[at].first_pending != none) resolve_local(pose, pose.stamps[at].first_pending);
 }

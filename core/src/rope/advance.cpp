@@ -1,4 +1,4 @@
-// Advances time in fixed substeps. In each the colliders move first, then the islands are solved.
+// Advances time in fixed substeps. Each substep moves the colliders, then solves the islands.
 #include <algorithm>
 #include <atomic>
 #include <glm/common.hpp>
@@ -18,8 +18,8 @@ namespace {
 
 using glm::dvec3;
 
-/// Removes the links over their body's tear strain, and lists them in `torn`; returns whether there were any.
-/// A rope tears at one link, the most strained: that relieves the others.
+/// Removes links beyond their body's tear strain and lists them in `torn`; returns whether any tore. A rope
+/// loses only its most strained link: that relieves the others.
 bool tear_links(State& state, std::vector<TornLink>& torn) {
     const std::size_t first = torn.size();
     std::size_t b = 0;  // links of a body are nearly always contiguous
@@ -56,8 +56,8 @@ bool tear_links(State& state, std::vector<TornLink>& torn) {
     return torn.size() > first;
 }
 
-/// Removes the ties that pull harder than their strength, except those still drawing their particles
-/// together; returns whether there were any.
+/// Removes ties that pull harder than their strength, except those still drawing their particles together;
+/// returns whether any tore.
 bool tear_ties(State& state) {
     return detail::erase_ties(state, [](const Tie& tie) {
                return tie.strength > 0.0f && tie.now == tie.length && tie.tension > tie.strength;
@@ -139,7 +139,7 @@ void move_colliders(State& state, Scratch& scratch) {
 
 /// Less work than this, about 60 µs on one thread, is not worth another thread.
 constexpr std::size_t min_links_per_thread = 1024;
-/// Whether idle threads help with this island: it has a large cloth.
+/// Whether the island has a cloth large enough for idle threads to help with.
 bool is_shared(const Plan& plan, const Plan::Island& island) {
     const auto is_large = [&](const Plan::Island& part) {
         if (part.grid == 0) return false;

@@ -19,7 +19,7 @@ constexpr double contact_tolerance = 1e-3;
 /// Stiffness of a contact, relative to the effective mass of its two chains.
 constexpr double relative_stiffness = 50.0;
 
-/// Metres that projections may move a particle in a substep.
+/// How far projections may move a particle in a substep, metres.
 constexpr double max_correction = 1e-3;
 
 }  // namespace
@@ -54,7 +54,7 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     return response;
 }
 
-/// A node's current position; before its chain's first step, its position without links and contacts.
+/// A node's current position or, before its chain's first step, the one without links and contacts.
 dvec3 BodyContacts::expected_position(std::uint32_t number, std::uint32_t node) const {
     const ContactScratch& chain = chain_scratch(number);
     return chain.progress.moved ? chain.nodes[node].x : chain.nodes[node].base;
@@ -134,7 +134,7 @@ void BodyContacts::set_pushes(std::uint32_t number, std::span<const Side> sides)
     for (const Side& side : sides) {
         const Contact& contact = s_.contacts[side.contact];
         const Response response = respond(contact);
-        // If both segments are of this chain, one step moves both, but each is taken as fixed.
+        // If both segments are in this chain, each is treated as fixed although the step moves both.
         const bool own = plan_.chain_of[contact.a] == plan_.chain_of[contact.b];
         const double sign = side.is_b ? 1.0 : -1.0, times = own ? 2.0 : 1.0;
         const double t = std::abs(response.weights[side.is_b ? 3 : 1]);
@@ -202,7 +202,7 @@ void BodyContacts::solve() {
     }
 }
 
-/// The first of the bodies that contacts join to this one.
+/// The first body in the group of bodies that contacts join to this one.
 std::uint32_t BodyContacts::first_of(std::uint32_t body) const {
     while (scratch_.body_group[body] != body) body = scratch_.body_group[body];
     return body;

@@ -4,11 +4,11 @@
 // 1. find() finds pairs that may come near each other in the substep: two segments, or a particle and a
 //    triangle of a cloth. A pair of segments is a contact if it is nearer than its neighbours and touches.
 // 2. solve(): each chain in contact takes a step of Newton's method (chain_newton.hpp) in turn, with the
-//    others fixed; then each contact adds its remaining gap, times a stiffness, to its multiplier. With about
-//    the chains' own sideways stiffness both converge within a few rounds.
+//    others fixed; then each contact adds its remaining gap, times a stiffness, to its multiplier. With a
+//    stiffness near the chains' own sideways stiffness, both converge in a few rounds.
 // 3. find_self_contacts() finds the contacts within a cloth, for each step of its own solve.
-// 4. project() goes through the contacts of cloth and tied bodies, once these are solved, and the remaining
-//    ones within a cloth.
+// 4. project() corrects the contacts of cloth and tied bodies after their solve, and those left within a
+//    cloth.
 // 5. prevent_crossing() keeps pairs from crossing between the start of the substep and the solver's result.
 #pragma once
 
@@ -30,11 +30,11 @@ class BodyContacts : IslandStep {
     void solve();
     /// Sorts the island's members by group.
     void sort_members();
-    /// The contacts that press within a cloth now, for its own solve. `stiffness`: per contact, times h^2.
+    /// The contacts now pressing within a cloth, for its own solve. `stiffness`: per contact, times h^2.
     void find_self_contacts(const Body& cloth, double stiffness,
                             std::vector<ClothSelfContact>& self_contacts);
-    /// One pass over the contacts to project; `all`: over all contacts, for solvers that take one link after
-    /// the other. Returns the largest correction, relative to the thickness.
+    /// One pass over the contacts to project; `all`: over all contacts, for solvers that go link by link.
+    /// Returns the largest correction, relative to the thickness.
     double project(bool all);
     void begin_projection(bool all);
     void prevent_crossing();

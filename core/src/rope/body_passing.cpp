@@ -83,8 +83,8 @@ void BodyContacts::prevent_crossing() {
         if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // Cuts the step of bodies that would still cross and those near them: a pair that did not cross in a
-    // whole step does not in a part of it.
+    // Cuts the step of bodies that would still cross, and of those near them: a pair that does not cross in a
+    // whole step does not cross in part of it.
     for (const Pair& pair : s_.pairs) join(pair);
     sort_members();
     for (int i = 0; i <= max_step_cuts; ++i) {

@@ -1,7 +1,7 @@
 // Finds pairs that may come near each other, and chooses the contacts among them.
 //
-// Candidates are listed with a margin, and stay listed until a particle has drifted too far from its position
-// then (L. Verlet, 1967). A substep looks only at them, and finds the same pairs whenever the list was made.
+// Candidates are listed with a margin, and the list holds until a particle drifts too far from where it was
+// listed (L. Verlet, 1967). A substep looks only at the list, and finds the same pairs however old it is.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -19,11 +19,11 @@ using glm::dvec3;
 /// Search margins for drift and for the travel in a substep, as multiples of a particle's travel and radius.
 constexpr double drift_per_travel = 4.0, drift_per_radius = 0.3, reach_per_travel = 2.0,
                  reach_per_radius = 0.2;
-/// Parts of a body nearer than this along it, in thicknesses, cannot touch: pi times the radius.
+/// Parts of a body cannot touch if they are closer than this along it, in thicknesses: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
-/// How fast overlapping bodies separate: part per substep, and m/s.
+/// How fast overlapping bodies separate: part of the depth per substep, at most this many m/s.
 constexpr double recovery_rate = 0.2, recovery_speed = 0.5;
-/// Particles that a contact may slide along in a substep and still continue.
+/// A contact that slides past no more particles than this in a substep keeps its force.
 constexpr std::uint32_t max_slide = 3;
 
 double square(const dvec3& v) {
@@ -43,7 +43,7 @@ void BodyContacts::each_listed(Visit visit) const {
     }
 }
 
-/// The nearest points of two features, as the shares of their particles.
+/// The nearest points of two features, as weights of their particles.
 BodyContacts::Nearest BodyContacts::nearest_of(const Candidate& pair, const std::array<dvec3, 4>& at) {
     if (pair.split == 2) {
         const auto found = detail::nearest_of_segments(at[0], at[1], at[2], at[3]);
@@ -76,7 +76,7 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     for (const Candidate& each : s_.candidates) {
         const double radii = static_cast<double>(state_.bodies[each.body_a].radius) +
                              static_cast<double>(state_.bodies[each.body_b].radius);
-        // Diagonals make no contact; they are only kept from being crossed.
+        // Diagonals make no contacts, but nothing may cross them.
         const bool touches = std::max(each.a, each.b) < state_.links.size();
         const double near =
             max_approach(each, &Scratch::Listed::travel) + 2.0 * path_margin + (touches ? radii : 0.0);
@@ -116,7 +116,7 @@ bool BodyContacts::update_drift(const std::vector<dvec3>& ends) {
         mean += ends[i] - state_.position[i];
         drift += state_.position[i] - scratch_.listed[i].at;
     });
-    // Motion that all particles share brings none nearer.
+    // Motion that all particles share brings none of them closer together.
     s_.mean = (1.0 / island_.particles) * mean;
     drift = (1.0 / island_.particles) * drift;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
@@ -184,7 +184,7 @@ void BodyContacts::list_candidates() {
     });
 }
 
-/// Adds the segments that begin in a chunk; if it meets cloth, its particles; and for a cloth, the triangles
+/// Adds the segments that begin in a chunk, its particles if it collides with cloth, and a cloth's triangles
 /// and their diagonals.
 void BodyContacts::add_features(const Plan::Chunk& chunk) {
     const Body& body = state_.bodies[chunk.body];
@@ -294,7 +294,7 @@ void BodyContacts::add_candidate(const BodyContactScratch::Feature& a, const Bod
     if (it.listed <= a.reach + b.reach) s_.candidates.push_back(it);
 }
 
-/// Whether no neighbour of one of its segments is nearer to the other.
+/// Whether neither segment has a neighbour that is nearer to the other segment.
 bool BodyContacts::is_local_minimum(const Pair& pair) const {
     const auto is_minimum_at = [&](std::uint32_t number, double at, const dvec3& to_other) {
         const Plan::Chain& chain = plan_.chains[plan_.chain_of[number]];
@@ -330,7 +330,7 @@ void BodyContacts::choose_contacts() {
     }
 }
 
-/// Starts each contact with its force in the previous substep; after sliding, with a neighbour's.
+/// Starts each contact with its force of the previous substep or, if it has slid, a neighbour's.
 void BodyContacts::warm_start() {
     const std::vector<BodyContact>& before = state_.contacts;
     s_.reused.assign(before.size(), 0);

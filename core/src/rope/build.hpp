@@ -81,8 +81,8 @@ inline double kinetic_energy(double mass, const glm::dvec3& by, double h) noexce
     return h > 0.0 ? 0.5 * mass * dot(by, by) / (h * h) : 0.0;
 }
 /// Energy of a link under `tension`. Its ends are `now` apart, a distance that changed by `by` in the
-/// substep. A solver that fell short leaves a link longer than its tension implies; its length halfway is
-/// taken to be off by the same factor. Shear and bend links are so stiff that rotation alone falsifies their
+/// substep. A solver that stops early leaves a link longer than its tension implies; its length halfway is
+/// assumed to be off by the same factor. Shear and bend links are so stiff that rotation alone spoils their
 /// length halfway, so their energy is taken at the end.
 double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
                       const glm::dvec3& by) noexcept;

@@ -16,7 +16,7 @@ using glm::dvec3;
 constexpr double allowed_depth = 1e-7;               ///< metres inside that are harmless
 constexpr double penetration_tolerance = 1e-6;       ///< metres inside that require another step
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
-/// Steps in which normals follow the features: at colliders thinner than a link is long they could circle.
+/// Normals follow features for this many steps: they could circle a collider thinner than a link is long.
 constexpr int following_steps = 5;
 constexpr double unmeasured = 1e30;  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
@@ -102,7 +102,7 @@ bool ChainNewton::find(std::uint32_t number) {
     return !s_.contacts.empty();
 }
 
-/// A link at the start of the substep, as seen from a collider, which has moved since.
+/// A link at the start of the substep, relative to a collider that has moved since.
 Scratch::Moving::Segment ChainNewton::start_of(std::uint32_t bond, const Scratch::Moving& moving) const {
     const dvec3 a = state_.position[particle(bond)], b = state_.position[particle(bond + 1)];
     return {a + moving.move_at(a), b + moving.move_at(b)};
@@ -195,8 +195,8 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
         const bool fast = !plane.active && std::abs(way.x) + std::abs(way.y) + std::abs(way.z) > thick;
         if (s_.progress.moved && !plane.active && !fast && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
-        // A particle far behind a plane that it touched has passed through: the surface now nearest is
-        // another one. If it did not touch the plane, it may have gone round.
+        // A particle far behind a plane that it touched has passed through: the nearest surface is now
+        // another one. If it never touched the plane, it may have gone round.
         if (!s_.progress.moved || (plane.active && (rests() || plane.gap <= -thick))) continue;
         dvec3 at = node.x;
         const SurfaceDistance surface =
@@ -207,8 +207,8 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
     }
 }
 
-/// Among new contacts so near that bending makes their nodes move alike, keeps only the deepest in a step: a
-/// stiff rope bent round a ball in one step would be flung off it in the next.
+/// Where bending moves the nodes of new contacts together, a step keeps only the deepest of them: a stiff
+/// rope bent round a ball in one step would be flung off in the next.
 void ChainNewton::choose_deepest() {
     ContactScratch::Contact* kept = nullptr;
     double deepest = 0.0;
@@ -218,7 +218,7 @@ void ChainNewton::choose_deepest() {
         for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
             if (!s_.planes[p].active) gap = std::min(gap, s_.planes[p].gap);
         if (gap == -allowed_depth) continue;
-        // In a substep bending reaches as many links as the fourth root of its stiffness.
+        // The number of links that bending reaches in a substep is the fourth root of its stiffness.
         const double stiff = s_.bends[contact.node].own / s_.nodes[contact.node].mass;
         if (kept != nullptr && contact.node - kept->node < std::sqrt(std::sqrt(stiff))) {
             (gap < deepest ? kept : &contact)->deferred = true;

@@ -23,7 +23,7 @@ constexpr int max_rejected = 3;   ///< rejected steps in a row
 /// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double max_length_error = 1e-5;  ///< relative length error
-/// After this many divergences links keep their extra stiffness: a running fold would repeat them.
+/// After this many divergences links keep their extra stiffness, or a fold running along would cause more.
 constexpr int max_divergences = 2;
 constexpr double first_extra_stiffness = 10.0;
 constexpr double max_growth = 0.25, max_turn = 0.5;
@@ -134,7 +134,7 @@ void ChainNewton::scale_step(double part) {
 }
 
 /// Whether a link has grown or shrunk too much, or the chain moved farther than its length and free path.
-/// `turn`: the largest change of a link's direction, relative to its length, or that of the chain.
+/// `turn`: the largest change of a link relative to its length, or of the first node to the chain's.
 bool ChainNewton::has_diverged(double& turn) const {
     bool diverged = false, finite = true;
     turn = 0.0;
@@ -174,7 +174,7 @@ bool ChainNewton::step(bool pushes_changed, bool force_step) {
     const bool done = p.moved && !changed && p.worst <= tolerance &&
                       (p.used_stiffness == 0.0 || p.divergences == max_divergences);
     if ((done && !force_step) || p.steps_taken == steps) return false;
-    if (++p.steps_taken == strict_steps)  // too fast for the mean of directions; the latest alone converges
+    if (++p.steps_taken == strict_steps)  // too fast for the mean of directions; the latest one converges
         for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
     save_state();
     system.step();

@@ -40,7 +40,7 @@ class ChainNewton {
     // The same in parts. Between steps the caller sets the pushes of other chains on nodes.
     void open(std::uint32_t chain);  ///< a chain that was found earlier
     void begin();
-    /// `pushes_changed`: since the last step. `force_step`: take a step in any case. False if none was taken.
+    /// Returns whether it took a step. `pushes_changed`: since the last one. `force_step`: even if converged.
     bool step(bool pushes_changed, bool force_step);
     void finish();
 

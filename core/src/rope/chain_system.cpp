@@ -96,8 +96,8 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
-/// The same where bending couples the node to the next one, and by `to_second` to the next but one. `beyond`:
-/// in, terms from earlier nodes for the next; out, terms for the next but one.
+/// The same if bending couples the node to the next one, and by `to_second` to the one after. `beyond` brings
+/// the terms of earlier nodes for the next node, and returns those for the one after.
 Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double to_second, const dvec3& along,
                 double weights, Beyond& beyond) noexcept {
     Sweep next = eliminate(node, bond, along, weights);
@@ -278,7 +278,7 @@ void ChainSystem::solve() noexcept {
     // Interleaved: neither side waits for the other.
     for (std::size_t k = 0; k < middle; ++k) {
         if (last - k > middle) right = pass(right, right_beyond, last - k, last - k - 1);
-        if (bent && k + 1 == middle) {  // the right side is at the middle; its terms lead beyond
+        if (bent && k + 1 == middle) {  // the right side has reached the middle: add its terms
             left.matrix.add(right_beyond.matrix);
             left.right += right_beyond.right;
             const Matrix3 across = transposed(right_beyond.across);

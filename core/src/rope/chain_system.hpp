@@ -153,7 +153,7 @@ struct ChainBend {
         return before * (previous - x) + after * (next - x);
     }
 };
-/// Weight of the end of the substep in curvature and in the direction of tension; the rest is taken one
+/// Weight of the end of the substep in curvature and in the direction of tension; the remainder goes to one
 /// substep before the last. At 0.5 no energy would be lost, and a stiff rope would ring for ever.
 inline constexpr double bend_ahead = 0.6, tension_ahead = 0.51;
 

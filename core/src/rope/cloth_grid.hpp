@@ -55,8 +55,8 @@ struct Cloth {
 
 /// Compiled for each vector unit.
 struct ClothUnit {
-    /// Computes the blocks of links, without contacts, and their pull; and the parts, whose strain counts
-    /// only links of this stiffness.
+    /// Computes the blocks and the pull of links, without contacts, and the parts. Their strain counts only
+    /// links of this stiffness.
     void (*links)(const GridLevel&, const ClothArrays&, float stiffness, ClothPart*,
                   GridRange cells) = nullptr;
     /// Computes the diagonal and the right side.

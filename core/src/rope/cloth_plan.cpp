@@ -20,7 +20,7 @@ bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan:
     return false;
 }
 
-/// Adds the grid of a body that contains every link of it exactly once; false if there is none.
+/// Adds a body's grid if it holds each of the body's links exactly once; otherwise returns false.
 bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t number, Plan& plan) {
     const Body& body = state.bodies[number];
     if (body.kind != Body::Kind::Cloth || body.row < 2) return false;
@@ -57,8 +57,8 @@ bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t num
     return true;
 }
 
-/// The cost of grids' ties grows with the cube of their number, the cost of elimination with the cube of a
-/// cloth's side. From this many ties per side on, elimination costs less.
+/// Solving for ties of grids costs the cube of their number, elimination the cube of a cloth's side. With
+/// more ties than this per particle of a side, elimination costs less.
 constexpr std::size_t max_ties_per_side = 4;
 
 /// Adds the grids of tied bodies, unless there are so many ties that elimination costs less.

@@ -17,13 +17,13 @@ using glm::dvec3;
 constexpr double strain_by_weight = 2e-3;
 /// Range of a link's stiffness, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
-/// Steps of Newton's method; more are only taken until the strain of every stretch link and the depth in
-/// colliders are accepted. No step needs an exact solution: its system is linear, and lengths are not.
+/// Steps of Newton's method: the minimum, then more until the strain of every stretch link and the depth in
+/// colliders are accepted. No step needs an exact solution: it only linearises the lengths.
 constexpr int min_newton_steps = 2, max_newton_steps = 8;
 constexpr double accepted_strain = 0.007;
 constexpr double accepted_depth = 0.01;  ///< relative to the shortest stretch link
-/// The residual at which a step is solved: relative to its initial value; in later steps, to the forces on
-/// free particles, but less than strains a single link.
+/// A step is solved once its residual falls to this part of its initial value or, in later steps, of the
+/// forces on free particles, and then below what strains a single link.
 constexpr double relative_residual = 0.1, force_residual = 0.1;
 constexpr double residual_strain = 1e-3;
 constexpr double max_predicted_move = 0.05;  ///< displacement by forces in a substep, relative to a link
@@ -169,8 +169,8 @@ void ClothSolver::pin() {
     }
 }
 
-/// A step of Newton's method. If it strains links, it is halved until the potential does not rise, the first
-/// one towards free motion.
+/// A step of Newton's method. If it strains links, it is halved until the potential does not rise; the first
+/// one is halved towards free motion.
 int ClothSolver::step(int iterations, bool first, double max_residual) {
     const detail::GridSystem::Tolerance tolerance{first ? 0.0 : max_residual, relative_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
@@ -291,8 +291,8 @@ int ClothSolver::solve(int iterations) {
     for (int steps = 0;; ++steps) {
         find_contacts(steps == 0);
         find_self_contacts();
-        // An unconverged rest becomes motion in the next substep. The energy bound removes it, except from
-        // bodies that a collider or pin drives.
+        // Unconverged residuals become motion in the next substep. The energy bound removes it, unless a
+        // collider or pin drives the body.
         const bool settled = driven ? std::abs(decrease_) <= forcing_ && deepest() <= penetration_slop
                                     : deepest() <= accepted_depth * shortest_;
         const bool good = settled && strain_ <= accepted_strain;

@@ -3,8 +3,8 @@
 // (chain_contact.cpp).
 //
 // Contacts remember how far a collider has displaced a particle in the substep: the part along the normal
-// bounds friction (Coulomb's law, as displacements). It includes the depth to which tension draws a particle
-// in, so the tauter a rope around a post, the more friction it has.
+// bounds friction (Coulomb's law, as displacements). That part includes the depth to which tension pulls a
+// particle into the collider, so a taut rope round a post has more friction than a slack one.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -20,7 +20,7 @@ namespace {
 
 using glm::dvec3;
 
-/// A way is cut into so many steps at most; a bar of 6 mm is then found at up to 200 m/s and 1/240 s.
+/// Maximum steps along a path: they find a bar of 6 mm at up to 200 m/s with substeps of 1/240 s.
 constexpr double max_sweep_steps = 64.0;
 
 struct Bounds {
@@ -66,15 +66,15 @@ std::optional<Scratch::Moving::At> Scratch::Moving::nearest(const Segment& at, d
     return At{*part, point, surface_distance(*shape, point)};
 }
 
-/// Advances by the distance, in which nothing can be reached (B. Mirtich, "Impulse-based Dynamic Simulation",
-/// 1996), and at least by a quarter of the half thickness.
+/// Advances by the distance to the surface, as nothing can be hit before (B. Mirtich, "Impulse-based Dynamic
+/// Simulation", 1996), but at least by a quarter of the half thickness.
 std::optional<Scratch::Moving::At> Scratch::Moving::first_touch(const Segment& from, const Segment& to,
                                                                 double radius, std::uint64_t& work) const {
     const bool particle = from[0] == from[1] && to[0] == to[1];
     const dvec3 a = to[0] - from[0], b = to[1] - from[1];
     const double way = std::sqrt(std::max(detail::dot(a, a), detail::dot(b, b))), thick = 0.5 * size + radius;
     if (!(way > thick)) return std::nullopt;
-    const auto stops = [&](const At& at) {  // whether its tangent plane keeps the end of the way out
+    const auto stops = [&](const At& at) {  // whether its tangent plane keeps out the end of the path
         const double depth = radius - at.surface.distance;
         const dvec3 end = to[0] + at.along * (to[1] - to[0]);
         return depth > 0.0 && detail::dot(at.surface.normal, end - at.point) < depth;

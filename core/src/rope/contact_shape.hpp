@@ -17,8 +17,8 @@ void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
 inline constexpr int max_line_samples = 14;
-/// The position on the line from a (0) to b (1) where a shape is nearest, or reaches deepest. No value if
-/// that is an end, or is farther than `reach` away. Takes at most max_line_samples distances.
+/// Where the line from a (0) to b (1) is nearest to a shape, or deepest inside it. No value if that is an
+/// end, or farther than `reach` away. Computes at most max_line_samples distances.
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
                                       double reach) noexcept;
 

@@ -17,9 +17,9 @@ using glm::dvec3;
 /// Depth at which a particle may stay inside, metres: negligible.
 constexpr double depth_tolerance = 1e-6;
 constexpr int rounds = 12;
-/// Distances that searches for a way out may take in a substep; a particle not out then stays in, and is
-/// counted. Each island has a budget per particle, and its share, by particles, of a common one. A particle
-/// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in total.
+/// Distances that searches for a way out may compute in a substep; a particle still inside then stays there,
+/// and is counted. Each island has a budget per particle, and its share, by particles, of a common one. A
+/// particle between two surfaces takes about a hundred; in 10^5 random scenes no substep took over 1300.
 constexpr std::uint64_t searches_per_particle = 128, shared_searches = 8192;
 constexpr int newton_steps = 16;
 
@@ -29,7 +29,7 @@ struct Neighbours {
     const Scratch& scratch;
     std::span<const IslandScratch::Near> near;
     dvec3 low, high;                 ///< the chunk's box
-    std::uint64_t& searches;         ///< distances that searches may still take
+    std::uint64_t& searches;         ///< distances that searches may still compute
     std::uint64_t& distances_taken;  ///< counts all distances
 
     /// Calls `visit` with the colliders that a ball may touch.
@@ -104,8 +104,8 @@ double exit_distance_of(const Shape& shape, const dvec3& from, const dvec3& alon
     return distance;
 }
 
-/// The way out of every collider along a line; `limit` if that is farther, or the search has taken too long.
-/// A line never leads back into a convex shape, so each collider is left only once.
+/// The distance along a line that leads out of every collider; `limit` if that is farther, or the search has
+/// taken too long. A line never re-enters a convex shape, so each collider is left only once.
 double exit_distance(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
                      double limit) {
     double distance = 0.0;
@@ -135,8 +135,8 @@ bool search_directions(const Neighbours& neighbours, const dvec3& from, double t
     return found;
 }
 
-/// Brings a ball out of every collider, or at least its centre if the ball does not fit. Stays close if that
-/// is easily found. False, and unmoved, if no way is found.
+/// Moves a ball out of every collider, or at least its centre if the ball does not fit, and not far if a
+/// short way is easy to find. If it finds no way out, returns false and leaves the ball where it is.
 bool move_out(const Neighbours& neighbours, dvec3& x, double radius) {
     for (const double thickness : {radius, 0.0}) {
         dvec3 at = x;
@@ -154,8 +154,7 @@ bool move_out(const Neighbours& neighbours, dvec3& x, double radius) {
 
 }  // namespace
 
-/// Calls `visit` with each particle from `begin` to before `end` that is near a collider, its body, and its
-/// neighbours.
+/// Calls `visit` with each particle in [begin, end) that is near a collider, its body, and its neighbours.
 template <class Visit>
 void Substep::each_near(std::size_t begin, std::size_t end, Visit visit) {
     std::uint64_t searches = searches_per_particle * island_.particles +

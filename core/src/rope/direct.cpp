@@ -1,4 +1,4 @@
-// The direct solver: whole chains at once, as many side by side as a vector register has lanes.
+// The direct solver: solves whole chains at once, side by side in the lanes of a vector register.
 //
 // An isolated chain first moves by its previous tension, applied implicitly; then one or two passes correct
 // its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is solved again from
@@ -6,9 +6,9 @@
 //
 // A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
 // that is a grid is one system with its contacts (cloth_solver.hpp), and so are bodies that ties join
-// (tied_solver.hpp). If chains share particles otherwise, as in hair, contacts are resolved last: the depth
-// to which tension draws a particle in bounds friction. The resulting length errors are corrected in the next
-// substep.
+// (tied_solver.hpp). If chains share particles in another way, as in hair, contacts are resolved last: the
+// depth to which tension pulls a particle into a collider bounds friction. The next substep corrects the
+// length errors that remain.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,12 +42,12 @@ constexpr int min_contact_passes = 4;
 /// Rounds in which contacts are projected, and their accepted error, relative to the thickness.
 constexpr int projection_rounds = 8;
 constexpr double projection_tolerance = 1e-3;
-/// A chain that shares particles may have impossible lengths, straight between two pins: its system is damped
-/// (Levenberg, Marquardt), or it would fling its particles about.
+/// A chain that shares particles may have impossible lengths, as when straight between two pins. Its system
+/// is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
 /// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
-/// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second
-/// in a minute.
+/// particles within a second, and costs a pendulum with a period of one second a few percent of its energy in
+/// a minute.
 constexpr double min_backward = 0.01;
 
 }  // namespace
@@ -92,7 +92,7 @@ int Substep::direct_isolated() {
     return 1;
 }
 
-/// Shortens the steps of chains that resist bending, except in contact with others, from which they may gain.
+/// Shortens the steps of chains that resist bending, unless they touch others and may gain energy from them.
 void Substep::shorten_steps() {
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;

@@ -16,7 +16,7 @@ enum Row : std::size_t {
     BaseZ,  ///< position without any tension
     OldX,
     OldY,
-    OldZ,        ///< position one substep before the last; then the direction of its link there, unit
+    OldZ,        ///< position one substep before the last; later its link's direction then, unit
     Weight,      ///< inverse mass; 0: pinned
     Rest,        ///< rest length of its link
     Compliance,  ///< of its link, m/N, over h^2
@@ -44,7 +44,7 @@ struct Block {
 /// A block's solve. Outputs have one value per lane.
 struct SolveJob {
     bool implicit = false;  ///< first apply the existing tension implicitly
-    /// Tension acts along the mean of the link's directions before and after at 0, along the one after at 1.
+    /// 0: tension acts along the mean of the link's directions before and after; 1: along the one after.
     double backward[max_lanes] = {};
     double passes[max_lanes] = {};  ///< maximum
     double damping = 1e-9;          ///< relative to the system's diagonal

@@ -39,7 +39,7 @@ class BlockSolver {
     void run(SolveJob& job) {
         store_old_directions();
         if (job.implicit) apply_implicit_tension(job);
-        // The first pass is unconditional: checking whether it is needed costs half as much.
+        // The first pass is unconditional: checking whether it is needed costs half as much as doing it.
         const V max_passes = hn::LoadU(d_, job.passes);
         V worst = set(1e300);
         job.passes_taken = 0;
@@ -122,8 +122,8 @@ class BlockSolver {
         return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
 
-    /// Half of the current tension over the length: the force per metre between the nodes. It is bounded: a
-    /// rope that cannot be as short as its pins require would drown all other digits.
+    /// Half of the current tension over the length: the force per metre between the nodes. It is bounded: in
+    /// a rope that cannot be as short as its pins require it would drown all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
         const V half =

@@ -33,7 +33,7 @@ Expected<Edited> edited(State state, std::vector<std::size_t> becomes) {
     return Edited{.world = *std::move(world), .becomes = std::move(becomes)};
 }
 
-/// A point between two numbers of a row: `part` of the way from `before` to the next.
+/// A point on a row of particles: `part` of the way from particle `before` to the next.
 struct RowPoint {
     std::size_t before = 0;
     double part = 0.0;
@@ -41,7 +41,7 @@ struct RowPoint {
     std::size_t nearest() const noexcept { return part < 0.5 ? before : before + 1; }
 };
 
-/// The number of `segments` for each span, in proportion to its length and at least one.
+/// Distributes `segments` over the spans in proportion to their lengths, at least one to each.
 std::vector<std::size_t> distribute_segments(const std::vector<double>& lengths, std::size_t segments) {
     double total = 0.0;
     for (const double length : lengths) total += length;

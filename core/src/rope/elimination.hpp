@@ -1,9 +1,9 @@
 // Symmetric positive definite systems, factorized as L D L^T: of 3 x 3 blocks over any graph of particles,
 // and dense. Not installed.
 //
-// Particles are eliminated in the order of fewest neighbours (A. George, J. Liu, "The Evolution of the
-// Minimum Degree Ordering Algorithm", 1989): those between the ties of a rope first, each with two
-// neighbours, so that the cost of ropes is linear in their segments, and only the few tied particles fill in.
+// The particle with the fewest neighbours is always eliminated next (A. George, J. Liu, "The Evolution of the
+// Minimum Degree Ordering Algorithm", 1989). Those between the ties of a rope have two and go first, so ropes
+// cost O(segments), and only the few tied particles fill in.
 #pragma once
 
 #include <cstdint>

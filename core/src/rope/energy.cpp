@@ -117,10 +117,10 @@ bool Substep::Ledger::gains_over(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(step_->acceleration_);
 }
 
-/// Removes the gain from motion relative to the rigid motion of the whole, so that a free body keeps falling
-/// and turning. Near a collider: from motion relative to the mean, then from the mean too. A pin takes
-/// momentum, so with one all motion is scaled alike. Any remaining gain is stretch, such as that of a body in
-/// which a collider appeared: tensions are scaled down, so that the links cannot return it as motion.
+/// Takes the gain out of motion relative to the rigid motion of the whole, so a free body keeps falling and
+/// turning. Near a collider, out of motion relative to the mean, then out of the mean too. A pin takes
+/// momentum, so with a pin all motion is scaled alike. Any gain left is stretch, as when a collider appears
+/// inside a body: tensions are scaled down, so the links cannot return it as motion.
 Substep::Slowdown Substep::Ledger::slowdown() const {
     Slowdown slowdown;
     if (!gains_over(rounding)) return slowdown;
@@ -172,7 +172,7 @@ void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     ledger.add_bending(chain);
 }
 
-/// Whether a link of tied bodies, by its number in the part, is a grid's.
+/// Whether a link of tied bodies, given by its number in the part, belongs to a grid.
 bool Substep::tied_in_grid(const Plan::Island& part, std::size_t link) const {
     return part.tied != 0 && plan_.tied[part.tied - 1].link_blocks[link] == Plan::no_block;
 }
@@ -209,7 +209,7 @@ Substep::Slowdown Substep::limit_gain(const Ledger& ledger) {
                                                                                   : Slowdown{};
 }
 
-/// Limits each group by itself: in contact one body gains the energy that another loses.
+/// Limits each group as a whole: in contact, one body gains the energy that another loses.
 void Substep::limit_energy() {
     each_group([&](std::span<Member> group) {
         if (group.front().slowdown) return;

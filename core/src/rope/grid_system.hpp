@@ -161,7 +161,7 @@ class GridSystem {
 
     // For solving several grids together with the bodies tied to them (tied_grids.cpp). Its preconditioner is
     // the sum of the inverse blocks of all levels (J. Bramble, J. Pasciak, J. Xu, "Parallel Multilevel
-    // Preconditioners", 1990), of which the part between two cells is known.
+    // Preconditioners", 1990), whose block between any two cells can be computed.
     void factorize(const GridUnit& unit, float floor);
     void spread(const GridUnit& unit);                ///< computes x of each level from the residual, `right`
     dvec3 spread_at(std::size_t cell) const;          ///< the sum over the levels, after spread()

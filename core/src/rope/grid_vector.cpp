@@ -71,7 +71,7 @@ void smooth(const GridLevel& level, GridRange cells) {
     });
 }
 
-/// Interleaved numbers, taken apart.
+/// Interleaved numbers, separated.
 struct Pairs {
     V even, odd;
 };

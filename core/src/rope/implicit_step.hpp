@@ -20,7 +20,7 @@ class ImplicitStep : protected IslandStep {
     void add_if_active(ClothContact contact, const SurfaceDistance& surface, double radius, bool first);
     void apply_friction(ClothContact& contact) const;
     double potential_of(const ClothContact& contact) const;
-    void push_colliders(const std::vector<ClothContact>& contacts) const;  ///< those of the last step
+    void push_colliders(const std::vector<ClothContact>& contacts) const;  ///< the contacts of the last step
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
         return scratch_.colliders[local_.near[contact.near].collider];
     }

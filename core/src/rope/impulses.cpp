@@ -1,5 +1,5 @@
 // The impulses that bodies give colliders: equal and opposite to those of their contacts, as each solver
-// computed them. What energy bounds and shortened steps change after that is left out.
+// computed them. Later changes by energy bounds and shortened steps are not counted.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -19,8 +19,8 @@ using glm::dvec3;
 
 }  // namespace
 
-/// A collider gets the force that its contacts hold: what they add to a node's other forces, which `force`
-/// sums, for those of nodes; a link's is known.
+/// Gives each collider the force of its contacts. At a link that is the contact's multiplier; at a node it is
+/// the sum of the node's other forces, `force`, which the contact balances.
 void ChainNewton::push_colliders() const {
     if (!local_.records_pushes) return;
     const double per_substep = 1.0 / state_.settings.substep;
@@ -52,8 +52,8 @@ void ChainNewton::push_colliders() const {
     }
 }
 
-/// Parts a node's force: to each plane along its normal, never pulling, by Gauss and Seidel; the rest is
-/// friction on the deepest.
+/// Splits a node's force among its planes by Gauss-Seidel: each takes a push along its normal, never a pull.
+/// The remainder is friction on the deepest one.
 void ChainNewton::push_planes(const ContactScratch::Contact& contact, const detail::NodeContact& effect,
                               double per_substep) const {
     constexpr int rounds = 16;
@@ -78,8 +78,8 @@ void ChainNewton::push_planes(const ContactScratch::Contact& contact, const deta
     }
 }
 
-/// Without pins the sum is the momentum that the bodies lost: solvers of cloth stop before their forces
-/// balance.
+/// Solvers of cloth stop before their forces balance. So without pins, the impulses are corrected to add up
+/// to the momentum that the bodies lost.
 void ImplicitStep::push_colliders(const std::vector<ClothContact>& contacts) const {
     if (!local_.records_pushes) return;
     const std::size_t first = local_.pushes.size();
@@ -168,7 +168,7 @@ void Workspace::Parts::begin_impulses(const State& state, bool record) {
         if (record) impulses.push_back({.collider = each.id});
 }
 
-/// In the order of islands, whatever threads took them: each thread takes some in this order.
+/// Adds in the order of islands, whichever threads solved them: each thread's list is in that order.
 void Workspace::Parts::add_impulses(const State& state) {
     for (IslandScratch& thread : threads) thread.next_push = 0;
     const auto island = [](const IslandScratch& thread) {

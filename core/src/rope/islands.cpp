@@ -7,8 +7,8 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Bodies whose chains are all isolated, and that collide with none, are merged until an island has this many
-/// links: enough to fill registers, few enough to spread a large world over threads.
+/// Bodies that collide with nothing, and whose chains are all isolated, are merged until an island has this
+/// many links: enough to fill registers, few enough to spread a large world over threads.
 constexpr std::uint32_t island_links = 2048;
 
 /// Sets of bodies joined by links or ties, identified by their first body (union-find).
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     return island_of;
 }
 
-/// Makes islands joined by collisions with cloth contiguous. Returns the first island of each one's set.
+/// Makes islands joined by collisions with cloth contiguous. Returns the first island of each island's set.
 std::vector<std::uint32_t> reorder_islands(Plan& plan, std::vector<std::uint32_t>& island_of) {
     const std::size_t count = plan.islands.size();
     UnionFind joined(count);

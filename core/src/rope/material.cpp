@@ -93,7 +93,7 @@ void World::scale_mass(const Body& body, double factor) noexcept {
         state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
 }
 
-/// Of a rope with particles at these places along it. The lightest part of it has no weight on it.
+/// Scales a rope's own mass, given particles `along` it; its lightest part is assumed to carry no weight.
 void World::lengthen_mass(const Body& rope, std::span<const double> along, double ratio) noexcept {
     const auto half_links = [&](std::size_t i) {
         return 0.5 * (along[std::min(i + 1, rope.count - 1)] - along[i > 0 ? i - 1 : 0]);

@@ -1,5 +1,5 @@
-// Forces within and between bodies leave momentum and angular momentum as they are. A solve that ends early,
-// or is cut short, does not; so each group of bodies that push each other is finally moved as a rigid whole.
+// Forces within and between bodies conserve momentum and angular momentum. A solve that ends early or is cut
+// short does not, so each group of bodies that push each other is moved as a rigid whole afterwards.
 #include "rope/substep.hpp"
 
 #include "rope/body_contacts.hpp"
@@ -41,8 +41,8 @@ bool IslandStep::is_free(Group group) const {
     return free;
 }
 
-/// Gives each free group the momentum that outside forces gave it, and the angular momentum: Verlet's rule
-/// keeps the one about positions at the start of the substep.
+/// Gives each free group the momentum and angular momentum that outside forces cause. Verlet's rule conserves
+/// angular momentum about the positions at the start of the substep.
 void Substep::restore_momentum() {
     if (island_.contacts != 0) BodyContacts(*this).sort_members();
     each_group([&](std::span<Member> group) {

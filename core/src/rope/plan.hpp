@@ -113,8 +113,8 @@ struct Plan {
     std::vector<std::uint32_t> system_index;  ///< per tied particle: place in its system's order, or cell
     std::vector<std::uint32_t> grid_of;       ///< 1-based index of each body in `grids`; 0: none
 
-    /// For each body, the bodies from itself on with which it collides, ascending: in `collides_with` from
-    /// its entry in `collides_first` on. This list and the next four are empty if nothing collides.
+    /// The bodies, from itself on, that each body collides with, ascending: `collides_with` has them from the
+    /// body's entry in `collides_first` on. These and the next four are empty if nothing collides.
     std::vector<std::uint32_t> collides_first, collides_with;
     /// For each body, whether its contacts are solved with its lengths or projected afterwards.
     enum class Collides : std::uint8_t { None, Solved, Projected };
@@ -127,9 +127,9 @@ struct Plan {
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
-    /// Faces for the air, by particle. `below`: if a cell of a cloth (two triangles), or a segment of a rope
-    /// or hair, with all its stretch links begins there, the particle below or the next one, else 0. `faces`:
-    /// the number of such triangles or segments with the particle.
+    /// Faces for the air, by particle. `below`: the particle below in a cloth, the next one in a rope or
+    /// hair, if a whole cell (two triangles) or segment begins here, with all its stretch links; else 0.
+    /// `faces`: how many such triangles or segments the particle has.
     std::vector<std::uint32_t> below;
     std::vector<std::uint8_t> faces;
     std::uint32_t longest = 0;  ///< links in the longest chain

@@ -125,7 +125,7 @@ struct TieForces {
 
 /// Contacts between the bodies of an island.
 struct BodyContactScratch {
-    /// A particle, a segment or a triangle, somewhere in a ball until the candidates are listed again.
+    /// A particle, segment or triangle, which stays in a ball until the candidates are listed again.
     struct Feature {
         glm::dvec3 middle{0.0};
         double radius = 0.0;
@@ -204,15 +204,15 @@ struct Scratch {
         glm::dvec3 by{0.0};            ///< displacement in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
-        glm::dvec3 turn{0.0};  ///< a capsule's end b moves this much more than `by`, end a as much less
+        glm::dvec3 turn{0.0};  ///< a capsule's end b moves this much further than `by`, end a this much less
         bool spins = false;
         glm::dquat inverse_spin{1.0, 0.0, 0.0, 0.0};  ///< rotates back to the start of the substep
         glm::dvec3 middle{0.0};                       ///< centre of the spin at the end of the substep
 
         /// The displacement of the shape at its point nearest to `at`.
         glm::dvec3 move_at(const glm::dvec3& at) const;
-        /// The distance of `at`, for a particle that started the substep at `was`. If it moved fast, puts
-        /// `at` back to where it first touches, on the side that it came from.
+        /// The distance of a particle that moved from `was` to `at` in the substep. If it is fast, moves `at`
+        /// back to where it first touches, on the side that it came from.
         SurfaceDistance sweep(const glm::dvec3& was, glm::dvec3& at, double radius,
                               std::uint64_t& work) const;
         /// A segment, or a particle if both ends are the same, relative to the shape.
@@ -223,11 +223,11 @@ struct Scratch {
             glm::dvec3 point{0.0};
             SurfaceDistance surface;
         };
-        /// Where a segment first touches on its way, between its ends. None if the way is so short that the
-        /// side that it comes from shows at its end.
+        /// Where, between its ends, a moving segment first touches. None if it moves so little that its final
+        /// position still shows which side it came from.
         std::optional<At> first_touch(const Segment& from, const Segment& to, double radius,
                                       std::uint64_t& work) const;
-        /// Where a segment that stands still is nearest, between its ends, if nearer than `reach`.
+        /// Where, between its ends, a resting segment is nearest, if nearer than `reach`.
         std::optional<At> nearest(const Segment& at, double reach, std::uint64_t& work) const;
         bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0) || spins; }
         /// Whether a ball is entirely beyond the shape's bounds in the substep.
@@ -384,8 +384,8 @@ class IslandStep {
     /// Whether nothing outside a group may hold it: no pin, no collider, not the edge of the world.
     bool is_free(Group group) const;
     /// The rigid motion with the momentum of `move`, a displacement by particle, and with its angular
-    /// momentum about the positions `at`. It does not turn where it would by more than `max_turn`, radians:
-    /// along straight lines, that lengthens links.
+    /// momentum about the positions `at`. It does not turn at all if it would by more than `max_turn`,
+    /// radians: particles move in straight lines, which would lengthen links.
     template <class Move>
     RigidMotion rigid_motion(Group group, const std::vector<glm::dvec3>& at, Move move,
                              double max_turn = 0.1) const;

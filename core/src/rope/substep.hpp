@@ -12,7 +12,7 @@ namespace tendril::rope {
 
 namespace detail {
 
-/// The part of the way to a goal that is covered in `h`, with `seconds` left for it.
+/// The part of the way to a goal that is covered in `h`, with `seconds` left to get there.
 inline double part_of(double h, double& seconds) {
     const double part = seconds > h * (1.0 + 1e-6) ? h / seconds : 1.0;
     seconds = part < 1.0 ? seconds - h : 0.0;
@@ -151,11 +151,11 @@ class Substep::Ledger {
     Slowdown slowdown() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.
     double contact_loss() const;
-    /// Relaxation and XPBD can hold uncounted strain energy; if bounded then, a taut rope would sag.
+    /// Relaxation and XPBD can hold strain energy that is not counted; the bound would make a taut rope sag.
     bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Impact || (near_ != Scratch::Nearest::None && !strained_);
     }
-    /// Whether it does not fall freely although nothing holds or touches it.
+    /// Whether it fails to fall freely although nothing holds or touches it.
     bool suspended() const;
 
   private:

@@ -97,8 +97,8 @@ double TiedSolver::tie_stiffness(const Tie& tie) const {
     return 0.5 * max_stiffness_between * (state_.mass[tie.a] + state_.mass[tie.b]) / mass_;
 }
 
-/// Calls `visit` with the spring of each tie, and of each link that is not a grid's, and the multiplier that
-/// it leaves.
+/// Calls `visit` with the spring of each tie and of each link outside grids, and the multiplier that it
+/// leaves.
 template <class Visit>
 void TiedSolver::each_spring(Visit visit) {
     const double per_mass = 1.0 / mass_, per_square = 1.0 / (h_ * h_);

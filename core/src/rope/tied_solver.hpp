@@ -19,7 +19,7 @@ class TiedSolver : ImplicitStep {
     /// Solves the island's particles, from `base`; returns the steps of Newton's method.
     int solve(int iterations);
     bool converged() const { return converged_; }
-    bool shortened() const { return step_scale_ < 1.0; }  ///< the last step was not taken as a whole
+    bool shortened() const { return step_scale_ < 1.0; }  ///< only part of the last step was taken
 
   private:
     /// A spring between two particles.

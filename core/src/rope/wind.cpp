@@ -1,11 +1,11 @@
 // Wind, and the drag of air at rest (J. Wejchert, D. Haumann, "Animation Aerodynamics", SIGGRAPH 1991). The
-// air pushes each triangle of a cloth: mostly along its normal, as on a flat plate at an angle, which lifts
-// it too, and a little along its surface. A wave that runs down a flag slower than the wind is then driven by
-// it, so that a flag flutters; gusts start the waves. A segment of a rope or hair is a cylinder.
+// air pushes each triangle of a cloth mostly along its normal, as it does a flat plate at an angle, so it
+// lifts too, and a little along its surface. Waves that run down a flag slower than the wind are then driven
+// by it: the flag flutters. Gusts start the waves. A segment of a rope or hair is a cylinder.
 //
-// Drag acts on the motion relative to the air and is implicit: in a substep a face takes on a part of the
-// difference, at most 1. Summed over a body without pins it cannot raise the kinetic energy relative to the
-// air. The ledger counts the work of the wind (energy.cpp).
+// Drag acts on the motion relative to the air and is implicit: in a substep a face takes on part of the
+// difference, at most all of it. Summed over a body without pins it cannot raise the kinetic energy relative
+// to the air. The ledger counts the work of the wind (energy.cpp).
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -144,7 +144,7 @@ void Substep::wind_on_triangle(const std::array<std::size_t, 3>& corners, const 
                           implicit_part(along_plate * drag) * (face.flow - normal_flow));
 }
 
-/// The force across depends on the flow across alone, not along (S. Hoerner, "Fluid-Dynamic Drag", 1965).
+/// The force across depends only on the flow across (S. Hoerner, "Fluid-Dynamic Drag", 1965).
 void Substep::wind_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air) {
     const dvec3 along = state_.position[ends[1]] - state_.position[ends[0]];
     const double square = detail::dot(along, along);

@@ -11,8 +11,8 @@ namespace {
 constexpr double max_shifts = 1e4;
 constexpr int refinements = 28;  ///< for an accuracy of a millionth of a row
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A fit worse than the best by less than this part of the input's spread is as good: values held beyond the
-/// ends favour large shifts if the output is weaker than the input.
+/// A fit counts as good as the best if it is worse by less than this part of the input's spread: values held
+/// beyond the ends favour large shifts if the output is weaker than the input.
 constexpr double tie_margin = 0.1;
 constexpr double explained = 0.1;  ///< the part of the output's variance that an input must explain
 

@@ -98,8 +98,8 @@ struct Input {
     const T* literal() const noexcept { return std::get_if<0>(&source); }
 };
 
-/// Reads and sets an Input, an Item or a Transform as an input of any value, by its address; the table row of
-/// each has this. A literal that is set must have the type.
+/// Reads and sets an Input, an Item or a Transform, given its address, as an input of any type. The table row
+/// of each has one. A literal must be of `type`.
 struct InputAccess : FieldAccess {
     enum class Takes : std::uint8_t { Any, Literal, Item };
     Takes takes;

@@ -6,10 +6,10 @@
 // quaternions in the hemisphere of the first parent's, then normalised. So the child moves continuously while
 // weights change, including through zero, as long as one of them is not zero.
 //
-// The filter passes single axes, in the local space of the child's parent in the tree: translation, rotation
-// and scale per axis, rotation as Euler angles (euler.hpp). A rotation with all three angles passed, or none,
-// is not decomposed. At the pole (second angle at 90 degrees) the first and third angles turn about the same
-// line; a filter that separates them jumps there, as in every comparable tool.
+// The filter passes translation, rotation and scale axis by axis, in the local space of the child's parent in
+// the tree; rotation as Euler angles (euler.hpp). A rotation with all three angles passed, or none, is not
+// decomposed. At the pole (second angle at 90 degrees) the first and third angles turn about the same line; a
+// filter that separates them jumps there, as in every comparable tool.
 //
 // All in double precision and absolute coordinates: exact to 1e-11 m at 10 km from the origin. O(parents),
 // about 60 ns each; a filter on the rotation adds 130 ns.

@@ -227,8 +227,8 @@ struct Spline {
     bool operator==(const Spline&) const = default;
 };
 
-/// A variant of all operations. Its copying, comparing and destroying are compiled once, in the library: for
-/// eighteen structs they would slow down every file that uses a Unit.
+/// A variant of all operations. Copying, comparing and destroying it is compiled once, in the library: for
+/// eighteen structs it would slow down compiling every file that uses a Unit.
 struct Operation
     : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation,
                    ProjectToParent, FromTwoVectors, TransformLocation, TransformDirection, ForEach,

@@ -95,6 +95,6 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Box>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Drive>() noexcept;
-/// All fields but `id`; `shape` by its kind, and the fields of that.
+/// All fields but `id`; `shape` is its kind and that kind's fields.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Collider>() noexcept;

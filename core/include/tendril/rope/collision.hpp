@@ -21,8 +21,8 @@
 // (Advance::held_back). A collider may then overlap a body for a while. Edits (set_radius, move, pins dragged
 // while paused) are not checked.
 //
-// Cost: ropes that collide but are apart cost a tenth to a fifth more; ropes in contact four to seven times
-// as much as without, and a heap of cloth five to eight times.
+// Cost: ropes that may collide but are apart cost a tenth to a fifth more, ropes in contact four to seven
+// times as much as without collisions, and a heap of cloth five to eight times.
 #pragma once
 
 #include <cstdint>

@@ -32,9 +32,9 @@
 // last substep may be incomplete: State::substeps counts complete ones. At most a substep of the time left
 // stays pending; the rest is lost.
 //
-// Bodies that no link, tie or collision joins do not affect each other, so threads can share them, and also a
-// cloth of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Such bodies share
-// two limits in proportion to size: max_pass_work, and the one on searches for a way out of colliders.
+// Bodies that no link, tie or collision joins do not affect each other, so threads can share them, or a cloth
+// of 8 192 particles or more, but not a rope: Workspace::use_threads. Unjoined bodies share two limits in
+// proportion to size: max_pass_work, and the one on searches for a way out of colliders.
 #pragma once
 
 #include <span>
@@ -86,8 +86,8 @@ struct Advance {
     std::span<const TornLink> torn{};  ///< links over their body's tear strain, by substep, then in the order
                                        ///< of State::links; a rope loses one in a substep, the most strained.
                                        ///< Valid until the workspace's next call
-    /// By collider that bodies pushed or pulled, in the order of State::colliders; empty unless asked for.
-    /// Colliders do not feel them: they move as told. Valid until the workspace's next call.
+    /// One per collider that bodies pushed or pulled, in the order of State::colliders; empty unless asked
+    /// for. Colliders do not feel them: they move as told. Valid until the workspace's next call.
     std::span<const ColliderImpulse> impulses{};
     bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
                            ///< from: nothing was done

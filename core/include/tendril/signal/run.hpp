@@ -60,8 +60,8 @@ struct RateComparison {
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates = usual_rates());
 
-/// The outputs of the same runs at each of the ascending `times`: one list per rate. Between two frames, the
-/// output of a frame that ended at that time.
+/// The outputs of the same runs at each of the ascending `times`: one list per rate. Between two frames: the
+/// output of a frame cut off at that time.
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
                                             std::span<const double> times,
                                             std::span<const FrameRate> rates = usual_rates());

@@ -9,8 +9,8 @@
 // in one step or in 500 gives the same. Computed in double for every type. One formula for all dampings, so
 // the result is continuous across critical damping.
 //
-// A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: the
-// target is taken as still within a step, which gains half a frame.
+// The spring lags behind a steadily moving target by 2 z (1 - target_velocity_amount) / w - dt / 2 seconds.
+// Each step holds the target still at its new value, which gains half a frame.
 //
 // Rotations: the spring acts on the rotation vector (axis times angle) from target to value, the short way
 // round. Velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
@@ -56,8 +56,8 @@ struct Spring {
     double critical_damping = 1.0;
     /// Force on a mass of 1, at most max_magnitude: shifts the target by force / w^2.
     Rate<T> force{};
-    /// 0 to 1, how much the target's velocity is anticipated: at 1 steady motion is followed without lag, and
-    /// jumps overshoot.
+    /// How much of the target's velocity is anticipated, 0 to 1: at 1 the spring follows steady motion
+    /// without lag, but overshoots jumps.
     double target_velocity_amount = 0.0;
     bool operator==(const Spring&) const = default;
 };
