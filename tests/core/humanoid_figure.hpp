@@ -110,6 +110,11 @@ class RandomPoses {
         const double w = from(-1.0, 1.0);
         return glm::normalize(glm::dquat(w, axis.x, axis.y, axis.z));
     }
+    /// About any axis by up to `most` radians either way.
+    glm::dquat turn(double most) {
+        const glm::dvec3 axis = glm::normalize(vector(1.0) + glm::dvec3(0.0, 0.0, 1e-3));
+        return glm::angleAxis(from(-most, most), axis);
+    }
 
   private:
     std::mt19937 engine_;

@@ -65,16 +65,6 @@ struct Holder {
     std::vector<Placement> placed;
 };
 
-class Randoms : public RandomPoses {
-  public:
-    Randoms() : RandomPoses(7) {}
-    /// A random rotation by up to `most` radians.
-    glm::dquat turn(double most) {
-        const double angle = from(0.0, most);
-        return glm::angleAxis(angle, glm::normalize(vector(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
-    }
-};
-
 /// Both hands on a rim, palms inward, free to turn about it.
 std::vector<Grip> rim(const Body& body, double radius) {
     return {*grip_of(body, {Effector::LeftHand, {radius, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}}, 0.08),
@@ -82,7 +72,7 @@ std::vector<Grip> rim(const Body& body, double radius) {
 }
 
 TEST(HumanoidHold, ClosesTheGripsWithinTheLimits) {
-    Randoms random;
+    RandomPoses random(7);
     int there = 0, all = 0;
     for (const bool shoulders : {true, false}) {
         Holder holder(true, shoulders);
@@ -108,7 +98,7 @@ TEST(HumanoidHold, ClosesTheGripsWithinTheLimits) {
 
 /// Objects held by a known pose of the arms: the object goes exactly where asked.
 TEST(HumanoidHold, ReachesAPoseThatIsPossible) {
-    Randoms random;
+    RandomPoses random(7);
     for (const double turn : {0.0, 0.7}) {
         Holder holder(true, true, turn);
         for (int i = 0; i < 60; ++i) {
@@ -150,7 +140,7 @@ double distance_from(const ObjectPose& asked, const ObjectPose& pose) {
 
 /// Free arms hold a pose if both hands are within reach of their shoulders. Random search, narrowing.
 TEST(HumanoidHold, TheObjectYieldsAsLittleAsPossible) {
-    Randoms random;
+    RandomPoses random(7);
     Holder holder(false, false);
     const std::vector<Grip> grips{{Effector::LeftHand, {0.2, 0, 0}}, {Effector::RightHand, {-0.2, 0, 0}}};
     int gave = 0;
@@ -228,7 +218,7 @@ TEST(HumanoidHold, HandsFollowAWheel) {
 
 TEST(HumanoidHold, OnlyReportedJumpsOccur) {
     Holder holder;
-    Randoms random;
+    RandomPoses random(7);
     const std::vector<Grip> grips = rim(holder.body, 0.2);
     int jumps = 0, steps = 0;
     for (int way = 0; way < 4; ++way) {
@@ -393,7 +383,7 @@ TEST(HumanoidHold, RefusesBadInputByName) {
 
 /// For any request, nothing is NaN and every limit holds.
 TEST(HumanoidHold, StaysFinite) {
-    Randoms random;
+    RandomPoses random(7);
     Holder holder;
     for (int i = 0; i < 60; ++i) {
         const double size = std::pow(10.0, random.from(-9.0, 9.0));

@@ -41,21 +41,8 @@ struct RetargetFigure {
     }
 };
 
-class RetargetDice {
-  public:
-    explicit RetargetDice(unsigned seed) : engine_(seed) {}
-    double from(double low, double high) { return std::uniform_real_distribution(low, high)(engine_); }
-    glm::dquat turn(double most) {
-        const glm::dvec3 axis(from(-1, 1), from(-1, 1), from(-1, 1));
-        return glm::angleAxis(from(-most, most), glm::normalize(axis + glm::dvec3(0, 0, 1e-3)));
-    }
-
-  private:
-    std::mt19937 engine_;
-};
-
 /// A body with limbs of any length, its own rest pose and bone axes, turned about Y, some bones missing.
-RetargetFigure random_body(RetargetDice& random, bool has_extras) {
+RetargetFigure random_body(RandomPoses& random, bool has_extras) {
     std::vector<Node> nodes{{"root", -1, {.rotation = random.turn(3.0)}}};
     RetargetFigure body;
     std::vector<Placement> placed{placement(nodes[0].rest)};
@@ -107,7 +94,7 @@ RetargetFigure with_loose_foot(RetargetFigure body) {
 }
 
 /// A clip high above the ground, so that ground contact does not hold the feet.
-Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
+Clip random_clip(RandomPoses& random, const RetargetFigure& body) {
     Clip clip{.name = "any", .duration = 1.0, .channels = {}};
     for (std::size_t node = 0; node < body.skeleton.size(); ++node) {
         Channel channel{.node = node};
@@ -141,7 +128,7 @@ TEST(HumanoidRetarget, LimbsPointAsTheSourcesAndHipsMoveInProportion) {
         {Bone::RightUpperArm, Bone::RightLowerArm}, {Bone::RightLowerArm, Bone::RightHand},
         {Bone::LeftUpperLeg, Bone::LeftLowerLeg},   {Bone::LeftLowerLeg, Bone::LeftFoot},
         {Bone::RightUpperLeg, Bone::RightLowerLeg}, {Bone::RightLowerLeg, Bone::RightFoot}};
-    RetargetDice random(7);
+    RandomPoses random(7);
     for (int i = 0; i < 60; ++i) {
         const RetargetFigure from = random_body(random, i % 2 == 0), plain = random_body(random, i % 3 == 0),
                              to = i % 4 == 1 ? with_loose_foot(plain) : plain;
@@ -177,7 +164,7 @@ TEST(HumanoidRetarget, LimbsPointAsTheSourcesAndHipsMoveInProportion) {
 
 /// This holds also for a file with its nodes in another order.
 TEST(HumanoidRetarget, AnEqualFigureGetsTheClipItself) {
-    RetargetDice random(3);
+    RandomPoses random(3);
     for (int i = 0; i < 10; ++i) {
         RetargetFigure body = random_body(random, i % 2 == 0);
         if (i % 3 == 1) body = with_loose_foot(body);
@@ -229,7 +216,7 @@ TEST(HumanoidRetarget, AnEqualFigureGetsTheClipItself) {
 }
 
 TEST(HumanoidRetarget, TheRootTravelsAndHelpersFollowTheirBones) {
-    RetargetDice random(11);
+    RandomPoses random(11);
     for (int i = 0; i < 20; ++i) {
         const RetargetFigure from = random_body(random, true);
         RetargetFigure to = random_body(random, false);
@@ -306,32 +293,9 @@ RetargetFigure other_figure(double legs, double feet, double hips) {
     return body;
 }
 
-/// Three rounds of the walk.
-Clip long_walk(const RetargetFigure& body) {
-    const Clip once = FigureWalk(body.skeleton).clip();
-    Clip walk{.name = "walk", .duration = 3.0 * once.duration, .channels = {}};
-    for (const Channel& each : once.channels) {
-        Channel longer{.node = each.node};
-        for (int round = 0; round < 3; ++round) {
-            const double start = round * once.duration;
-            for (std::size_t i = round > 0 ? 1 : 0; i < each.rotation.times.size(); ++i) {
-                longer.rotation.times.push_back(start + each.rotation.times[i]);
-                longer.rotation.values.push_back(each.rotation.values[i]);
-            }
-            for (std::size_t i = round > 0 ? 1 : 0; i < each.translation.times.size(); ++i) {
-                longer.translation.times.push_back(start + each.translation.times[i]);
-                longer.translation.values.push_back(each.translation.values[i] +
-                                                    glm::dvec3(0.0, 0.0, start * FigureWalk::speed));
-            }
-        }
-        walk.channels.push_back(std::move(longer));
-    }
-    return walk;
-}
-
 TEST(HumanoidRetarget, AWalkFitsOtherLegsAndHandsKeepTheirDirection) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
-    const Clip walk = long_walk(from);
+    const Clip walk = FigureWalk(from.skeleton, 3).clip();
     for (const auto& [legs, feet, hips] : {std::array{0.6, 1.0, 1.0}, {1.4, 0.6, 1.5}, {1.0, 1.4, 0.7}}) {
         const RetargetFigure to = other_figure(legs, feet, hips);
         const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
@@ -383,7 +347,7 @@ TEST(HumanoidRetarget, AClipMayHaveAnyNumberOfFrames) {
     for (std::size_t frames = 0; frames < 6; ++frames)
         for (const Bone missing : {Bone::Head, Bone::LeftFoot, Bone::RightLowerLeg}) {
             SCOPED_TRACE(std::to_string(frames) + " frames, without " + humanoid::name(missing));
-            Clip clip = long_walk(from);
+            Clip clip = FigureWalk(from.skeleton, 3).clip();
             const auto cut = [&](auto& track) {
                 track.times.resize(std::min(frames, track.times.size()));
                 track.values.resize(track.times.size(), {});
@@ -441,7 +405,7 @@ TEST(HumanoidRetarget, FeetStandLevelOnLegsOfUnequalLength) {
     std::vector<Node> nodes = to.skeleton.nodes();
     nodes[*to.skeleton.find("LeftFoot")].rest.translation *= 0.95;
     to.skeleton = *Skeleton::make(std::move(nodes));
-    const Clip walk = long_walk(from);
+    const Clip walk = FigureWalk(from.skeleton, 3).clip();
     const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
     ASSERT_TRUE(made) << made.message();
     const Soles soles = *find_soles(from.skeleton, from.map);
@@ -469,7 +433,7 @@ TEST(HumanoidRetarget, ToesThatPointUpInAZeroPoseLieFlatOnTheGround) {
         nodes[*to.skeleton.find(name)].rest.rotation =
             glm::angleAxis(glm::radians(-60.0), glm::dvec3(1, 0, 0));
     to.skeleton = *Skeleton::make(std::move(nodes));
-    const Clip walk = long_walk(from);
+    const Clip walk = FigureWalk(from.skeleton, 3).clip();
     const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
     ASSERT_TRUE(made) << made.message();
     const auto pitch = [](const RetargetFigure& body, const std::vector<Placement>& all) {
@@ -486,7 +450,7 @@ TEST(HumanoidRetarget, ToesThatPointUpInAZeroPoseLieFlatOnTheGround) {
 }
 
 TEST(HumanoidRetarget, PalmBonesBesideTheHandTurnWithIt) {
-    RetargetDice random(13);
+    RandomPoses random(13);
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     RetargetFigure to = from;
     std::vector<Node> nodes = to.skeleton.nodes();
@@ -550,7 +514,7 @@ TEST(HumanoidRetarget, FingersAreMatchedByName) {
 }
 
 TEST(HumanoidRetarget, ListsTheBonesThatOnlyOneOfThemHas) {
-    RetargetDice random(5);
+    RandomPoses random(5);
     const RetargetFigure full = random_body(random, true), plain = random_body(random, false);
     const Clip clip = random_clip(random, full);
     const std::vector<Bone> extras{Bone::UpperChest, Bone::Neck, Bone::LeftShoulder, Bone::RightShoulder};
@@ -562,7 +526,7 @@ TEST(HumanoidRetarget, ListsTheBonesThatOnlyOneOfThemHas) {
 }
 
 TEST(HumanoidRetarget, UnsuitableInputIsRefused) {
-    RetargetDice random(9);
+    RandomPoses random(9);
     const RetargetFigure body = random_body(random, true);
     const Clip clip = random_clip(random, body);
     BoneMap none;

@@ -12,14 +12,14 @@ class FigureWalk {
   public:
     static constexpr double period = 1.1, speed = 1.0, rate = 240.0;
 
-    explicit FigureWalk(const Skeleton& skeleton) : skeleton_(skeleton) {
+    explicit FigureWalk(const Skeleton& skeleton, int rounds = 1) : skeleton_(skeleton) {
         clip_.name = "walk";
-        clip_.duration = period;
+        clip_.duration = rounds * period;
         const int frames = static_cast<int>(std::lround(period * rate));
         for (const char* name : {"Hips", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "LeftToes",
                                  "RightUpperLeg", "RightLowerLeg", "RightFoot", "RightToes"})
             clip_.channels.push_back({.node = *skeleton.find(name)});
-        for (int i = 0; i <= frames; ++i) add(static_cast<double>(i) / frames);
+        for (int i = 0; i <= rounds * frames; ++i) add(static_cast<double>(i) / frames);
     }
     Clip clip() const { return clip_; }
 

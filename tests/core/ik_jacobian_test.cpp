@@ -1,16 +1,11 @@
 // The Jacobian solvers against the explicit 3 x 3n Jacobian and elimination in double, unused by the library.
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "ik_hostile.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test::ik_jacobian_test {
 namespace {
 
 using ik::Method;
 using ik::Status;
-using Json = nlohmann::json;
 using Vector = std::vector<double>;
 using Matrix = std::vector<Vector>;
 
@@ -169,29 +164,6 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
             if (step.phase != ik::Phase::Gradient) continue;
             EXPECT_EQ(step.order, step.iteration - 1);
         }
-    }
-}
-
-TEST(IkJacobian, DampedMethodsReachEveryReferenceTarget) {
-    const auto path = reference_path("solve.json");
-    std::ifstream file(path);
-    if (!file) GTEST_SKIP() << path << " is not there";
-    const Json cases = Json::parse(file);
-    for (const Method method : {Method::Dls, Method::SvdDls}) {
-        int most = 0;
-        for (const Json& example : cases) {
-            if (example.at("expect").at("status") != "Converged") continue;
-            SCOPED_TRACE(example.at("name").get<std::string>());
-            const auto lengths = example.at("lengths").get<Lengths>();
-            const Json& target = example.at("target");
-            Joints joints = straight_joints(lengths);
-            const ik::Report report = KeptSolver(lengths).solve(
-                method, joints, {target[0].get<float>(), target[1].get<float>(), target[2].get<float>()});
-            EXPECT_EQ(report.status, Status::Converged) << name(method);
-            EXPECT_LE(report.residual, 1e-3 * reach_of(lengths));
-            most = std::max(most, report.iterations);
-        }
-        std::printf("%s: at most %d iterations\n", name(method), most);
     }
 }
 

@@ -1,10 +1,17 @@
 // Small rigs for the tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "tendril/rig/rig.hpp"
 #include "tendril/rig/workspace.hpp"
 
 namespace tendril::rig {
+
+inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
+    EXPECT_NEAR(glm::length(a - b), 0.0, within)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
 
 inline std::string numbered(const char* name, int number) {
     std::string result(name);

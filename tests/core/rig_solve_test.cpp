@@ -6,11 +6,6 @@
 namespace tendril::rig {
 namespace {
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
-    EXPECT_NEAR(glm::length(a - b), 0.0, within)
-        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
-}
-
 TEST(RigSolve, SolvingTwiceEqualsSolvingOnce) {
     for (const Definition& definition : {aim_rig(), fk_rig(), loop_rig(), loop_rig(5, false)}) {
         Held rig(definition);

@@ -7,11 +7,6 @@
 namespace tendril::rig::rig_state_test {
 namespace {
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
-    EXPECT_NEAR(glm::length(a - b), 0.0, within)
-        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
-}
-
 TEST(RigState, SpringsLagAndComeToRest) {
     Definition definition{
         .elements = {control("head", ControlKind::Position), {.name = "tip", .initial = at(0, 1, 0)}},

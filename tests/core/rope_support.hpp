@@ -123,4 +123,19 @@ inline bool all_finite(const World& world) {
                        [](const rope::Link& link) { return std::isfinite(link.tension); });
 }
 
+/// A moving scene with bodies of every kind.
+inline World busy_world(rope::Solver solver) {
+    World world = world_with({.solver = solver});
+    world.add_rope("rope",
+                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
+    world.add_cloth("cloth",
+                    {.corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::ClothShape::Pins::Corners});
+    world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
+    world.add_hair("hair", {.roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6}, "ball");
+    world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
+    world.move_collider("ball", {0.2f, 1.3f, 0}, 0.7);
+    world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.6);
+    return world;
+}
+
 }  // namespace tendril::test

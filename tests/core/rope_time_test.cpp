@@ -8,20 +8,6 @@ using rope::Advance;
 using rope::Settings;
 using rope::Solver;
 
-/// A moving scene with bodies of every kind.
-World scene(Solver solver) {
-    World world = world_with({.solver = solver});
-    world.add_rope("rope",
-                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
-    world.add_cloth("cloth",
-                    {.corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::ClothShape::Pins::Corners});
-    world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
-    world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
-    world.move_collider("ball", {0.2f, 1.3f, 0}, 0.5);
-    world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.75);
-    return world;
-}
-
 double farthest_apart(const World& a, const World& b) {
     double most = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -31,10 +17,10 @@ double farthest_apart(const World& a, const World& b) {
 
 TEST(RopeTime, RaggedFramesGiveTheSameResult) {
     Random random(51);
-    World whole = scene(Solver::Direct);
+    World whole = busy_world(Solver::Direct);
     for (int i = 0; i < 60; ++i) whole.advance(1.0 / 60.0);
     for (int round = 0; round < 8; ++round) {
-        World ragged = scene(Solver::Direct);
+        World ragged = busy_world(Solver::Direct);
         double left = 1.0;
         while (left > 0.0) {
             // Frames from a microsecond to a quarter of a second, and empty calls.
@@ -85,7 +71,7 @@ TEST(RopeTime, TimeBeyondTheLongestFrameIsDroppedAndCounted) {
 }
 
 TEST(RopeTime, TimeBeyondTheMaximumSubstepsIsDroppedAndCounted) {
-    World some = scene(Solver::Direct), all = scene(Solver::Direct);
+    World some = busy_world(Solver::Direct), all = busy_world(Solver::Direct);
     const Advance cut = some.advance(0.1 + 0.3 / 240.0, 10);
     EXPECT_EQ(cut.substeps, 10);
     EXPECT_EQ(cut.dropped, 14u);
@@ -112,7 +98,7 @@ TEST(RopeTime, AllTimeIsSimulatedOrCounted) {
 }
 
 TEST(RopeTime, ZeroTimeTakesNoStepAndBadTimeIsRefused) {
-    World world = scene(Solver::Direct);
+    World world = busy_world(Solver::Direct);
     world.advance(0.3 / 240.0);
     const rope::State before = world.state();
     EXPECT_EQ(world.advance(0.0).substeps, 0);

@@ -73,15 +73,6 @@ TEST_F(SignalProgram, AppliesAListInItsOrder) {
     EXPECT_NEAR(last("[]"), 2.0, 1e-12);
 }
 
-TEST_F(SignalProgram, FindsColumnsByTheirNames) {
-    const Outcome by_dt = run(R"({"kind": "interp_to"})", "input,note,dt\n1,7,0.5\n2,8,0.25\n");
-    ASSERT_TRUE(succeeded(by_dt));
-    EXPECT_EQ(table_of(by_dt.out)[2], (Strings{"0.75", "2", "2"}));
-    const Outcome by_time = run(R"({"kind": "interp_to"})", "time,input\n0.5,1\n0.75,2\n");
-    ASSERT_TRUE(succeeded(by_time));
-    EXPECT_EQ(by_time.out, by_dt.out);
-}
-
 TEST_F(SignalProgram, TheFirstTimeIsWhereFiltersStart) {
     for (const char* filter : {R"({"kind": "interp_to_exact", "speed": 12.56})",
                                R"({"kind": "moving_average", "window": 0.15})"}) {
@@ -102,13 +93,6 @@ TEST_F(SignalProgram, TheFirstTimeIsWhereFiltersStart) {
     const Outcome one = run(R"({"kind": "interp_to"})", "time,input\n0,3\n");
     ASSERT_TRUE(succeeded(one));
     EXPECT_EQ(table_of(one.out)[1], (Strings{"0", "3", "3"}));
-}
-
-TEST_F(SignalProgram, ReadsNamesAndNumbersBetweenQuotes) {
-    const Outcome outcome =
-        run(R"({"kind": "dead_zone"})", "\"note, of mine\",\"dt\",\"input\"\n\"a,b\",0.5,\"2\"\n");
-    ASSERT_TRUE(succeeded(outcome));
-    EXPECT_EQ(table_of(outcome.out)[1][1], "2");
 }
 
 TEST_F(SignalProgram, ItsOutputCanBeReadAgain) {

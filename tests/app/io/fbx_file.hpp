@@ -88,12 +88,12 @@ class FbxScene {
                    {list("KeyTime", times), list("KeyValueFloat", values), list("KeyAttrFlags", flags),
                     list("KeyAttrDataFloat", data), list("KeyAttrRefCount", counts)});
     }
-    std::int64_t stack(const std::string& name, double end) {
-        return add(
-            "AnimationStack", name, "",
-            {properties({property("LocalStart", {std::int64_t{0}}),
-                         property("LocalStop",
-                                  {static_cast<std::int64_t>(end * static_cast<double>(ticks) + 0.5)})})});
+    std::int64_t stack(const std::string& name, double end, double begin = 0.0) {
+        const auto at = [](double time) {
+            return static_cast<std::int64_t>(time * static_cast<double>(ticks) + 0.5);
+        };
+        return add("AnimationStack", name, "",
+                   {properties({property("LocalStart", {at(begin)}), property("LocalStop", {at(end)})})});
     }
     std::int64_t layer(std::int64_t stack, std::vector<FbxRecord> list = {}) {
         const std::int64_t id = add("AnimationLayer", "", "", {properties(std::move(list))});

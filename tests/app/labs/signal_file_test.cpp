@@ -171,7 +171,9 @@ TEST_F(SignalCsv, ColumnsAreFoundByNameOrAreTheOtherOfTwo) {
     for (const char* text :
          {"dt,input\n0.1,1\n0.1,-2\n", "0.1,1\n0.1,-2\n", "time,value\n0,1\n0.5,-2\n",
           "t,x,y\n0,1,9\n1,-2,9\n", "Time (s),Value [mm]\n0,1\n0.5,-2\n", "left,Seconds\n1,0\n-2,0.5\n",
-          "frame,t,y\n7,0,1\n8,1,-2\n", "\"t\",\"height, in metres\"\n0,1\n1,-2\n"}) {
+          "frame,t,y\n7,0,1\n8,1,-2\n", "input,note,dt\n1,7,0.1\n-2,8,0.1\n",
+          "\"note, of mine\",\"dt\",\"input\"\n\"a,b\",0.5,\"1\"\nb,0.5,-2\n",
+          "\"t\",\"height, in metres\"\n0,1\n1,-2\n"}) {
         SCOPED_TRACE(text);
         run("signal.input", file(text));
         EXPECT_EQ(values(), wanted);

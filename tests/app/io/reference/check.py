@@ -12,43 +12,34 @@ import math
 import sys
 
 import bvh
-import fbx
 import gltf
 
 
 def reader_of(path):
-    kind = path.rsplit(".", 1)[1].lower()
-    return {"bvh": bvh.File, "fbx": fbx.File}.get(kind, gltf.File)(path)
+    return bvh.File(path) if path.lower().endswith(".bvh") else gltf.File(path)
 
 
-def same_joints(names, known, ordered):
-    """For each of the program's names the place in `known`. Where a reader knows the order, doubles may have
-    been given another ending."""
-    if ordered:
-        assert len(names) == len(known), "%d nodes, not %d" % (len(names), len(known))
-        for mine, other in zip(names, known):
-            assert other is None or mine.startswith(other), "%s, not %s" % (mine, other)
-        return list(range(len(names)))
-    return [known.index(name) for name in names if name in known]
+def check_names(names, known):
+    """Doubles may have been given another ending."""
+    assert len(names) == len(known), "%d nodes, not %d" % (len(names), len(known))
+    for mine, other in zip(names, known):
+        assert other is None or mine.startswith(other), "%s, not %s" % (mine, other)
 
 
 def compare(dump):
     file = reader_of(dump["file"])
     file.adds, file.upright = dump["adds"], dump["upright"]
-    ordered = not isinstance(file, fbx.File)
-    places = same_joints(dump["names"], file.names, ordered)
-    mine = [i for i, name in enumerate(dump["names"]) if ordered or name in file.names]
-    assert len(mine) >= 0.9 * len(dump["names"]), "names that the file does not have: %s" % dump["names"]
+    check_names(dump["names"], file.names)
     metres = file.metres if file.metres is not None else dump["scale"]
     assert abs(dump["scale"] - metres) < 1e-9, "a scale of %g, not %g" % (dump["scale"], metres)
     worst, where, count = 0.0, "", 0
     for pose in dump["poses"]:
         at = file.places(pose["clip"], pose["time"])
-        for i, k in zip(mine, places):
-            away = math.dist(pose["at"][i], [metres * c for c in at[k]])
+        for name, mine, other in zip(dump["names"], pose["at"], at):
+            away = math.dist(mine, [metres * c for c in other])
             count += 1
             if not away <= worst:
-                worst, where = away, "%s, clip %s, %.4f s" % (dump["names"][i], pose["clip"], pose["time"])
+                worst, where = away, "%s, clip %s, %.4f s" % (name, pose["clip"], pose["time"])
         if pose.get("corners") and isinstance(file, gltf.File):
             numbers = [number for number, _ in pose["corners"]]
             for (number, mine_at), at_file in zip(pose["corners"], file.corners(pose["clip"], pose["time"], numbers)):

@@ -5,7 +5,7 @@
 glTF: matrices beside translation, rotation and scale, nested scales, CUBICSPLINE and STEP, sparse accessors, normalised
 integers, strides, data URIs, an external .bin, GLB, names that are missing or double, children before their parents.
 BVH: every order of channels, positions on any joint, rotations before positions, joints without channels, several roots,
-end sites, names with blanks, line ends of other systems. FBX: pivots, offsets, pre- and post-rotations, scales."""
+end sites, names with blanks, line ends of other systems."""
 import base64
 import json
 import math
@@ -13,7 +13,6 @@ import os
 import random
 import struct
 import sys
-import zlib
 
 from matrices import multiply, rotation, scaling, translation
 
@@ -180,103 +179,11 @@ def bvh(rng, folder, name):
         file.write(rng.choice(["\n", "\r\n"]).join(lines) + "\n")
 
 
-BIG = 1 << 40  # ids are written as long integers
-ROOT = ("L", 0)
-
-
-def fbx_property(value):
-    if isinstance(value, str):
-        return b"S" + struct.pack("<I", len(value.encode())) + value.encode()
-    if isinstance(value, int):
-        return (b"L" if abs(value) > 1 << 30 else b"I") + struct.pack("<q" if abs(value) > 1 << 30 else "<i", value)
-    if isinstance(value, float):
-        return b"D" + struct.pack("<d", value)
-    kind, values = value
-    if kind == "L":
-        return b"L" + struct.pack("<q", values)
-    # an array, packed
-    raw = zlib.compress(struct.pack("<%d%s" % (len(values), {"l": "q"}.get(kind, kind)), *values))
-    return kind.encode() + struct.pack("<III", len(values), 1, len(raw)) + raw
-
-
-def fbx_node(at, name, properties=(), children=()):
-    values = b"".join(map(fbx_property, properties))
-    head = 13 + len(name)
-    body, here = values, at + head + len(values)
-    for child in children:
-        part = fbx_node(here, *child)
-        body, here = body + part, here + len(part)
-    if children:
-        body += b"\0" * 13
-    return struct.pack("<IIIB", at + head + len(body), len(properties), len(values), len(name)) + name.encode() + body
-
-
-def p70(**values):
-    kinds = {"LocalStart": "KTime", "LocalStop": "KTime", "UpAxis": "int", "RotationActive": "bool",
-             "RotationOrder": "enum"}
-    rows = []
-    for key, value in values.items():
-        name = key.replace("_", " ").replace("bar", "|")
-        row = value if isinstance(value, list) else [value]
-        rows.append(("P", [name, kinds.get(key, "Vector3D" if isinstance(value, list) else "Number"), "", "A"] + row))
-    return ("Properties70", [], rows)
-
-
-def fbx(rng, folder, name):
-    second, objects, connections = 46186158000, [], []
-    start = rng.choice([0, second])
-    stack, layer = BIG + 1, BIG + 2
-    objects.append(("AnimationStack", [stack, "Take\0\x01AnimStack", ""], [p70(LocalStart=("L", start), LocalStop=("L", start + second))]))
-    objects.append(("AnimationLayer", [layer, "Layer\0\x01AnimLayer", ""], [("Version", [100], ())]))
-    connections.append(["OO", layer, stack])
-    ticks, key = [start, start + second // 4, start + second // 2, start + second], 2 * BIG
-    for i in range(rng.randrange(4, 9)):
-        model, values = 3 * BIG + i, {"Lcl_Translation": vector(rng, 30), "Lcl_Rotation": vector(rng, 80)}
-        for each in ["PreRotation", "PostRotation"]:
-            if rng.random() < 0.4:
-                values[each] = vector(rng, 90)
-        for each in ["RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot"]:
-            if rng.random() < 0.3:
-                values[each] = vector(rng, 5)
-        if rng.random() < 0.3:
-            values["Lcl_Scaling"] = [rng.uniform(0.5, 1.5)] * 3
-        if rng.random() < 0.5:
-            values.update(RotationActive=1, RotationOrder=rng.randrange(6))
-        kind = "LimbNode"
-        objects.append(("Model", [model, "Bone %d\0\x01Model" % i, kind], [("Version", [232], ()), p70(**values)]))
-        connections.append(["OO", model, 3 * BIG + rng.randrange(max(0, i - 2), i) if i else ROOT])
-        for path, reach in (("Lcl Translation", 30), ("Lcl Rotation", 80)):
-            if rng.random() < 0.3:
-                continue
-            key += 10
-            short = path[4]
-            objects.append(("AnimationCurveNode", [key, short + "\0\x01AnimCurveNode", ""],
-                            [p70(dbarX=0.0, dbarY=0.0, dbarZ=0.0)]))
-            connections += [["OO", key, layer], ["OP", key, model, path]]
-            for k in range(3):
-                objects.append(("AnimationCurve", [key + 1 + k, "\0\x01AnimCurve", ""], [
-                    ("Default", [0.0], ()), ("KeyVer", [4008], ()), ("KeyTime", [("l", ticks)], ()),
-                    ("KeyValueFloat", [("f", [rng.uniform(-reach, reach) for _ in ticks])], ()),
-                    ("KeyAttrFlags", [("i", [24836])], ()), ("KeyAttrDataFloat", [("f", [0.0] * 4)], ()),
-                    ("KeyAttrRefCount", [("i", [len(ticks)])], ())]))
-                connections.append(["OP", key + 1 + k, key, "d|" + "XYZ"[k]])
-    top = [("FBXHeaderExtension", [], [("FBXHeaderVersion", [1003], ()), ("FBXVersion", [7400], ())]),
-           ("GlobalSettings", [], [("Version", [1000], ()), p70(UpAxis=rng.randrange(3), UnitScaleFactor=rng.choice([1.0, 2.54, 100.0]))]),
-           ("Definitions", [], [("Version", [100], ())]), ("Objects", [], objects),
-           ("Connections", [], [("C", each, ()) for each in connections])]
-    data = b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7400)
-    for node in top:
-        data += fbx_node(len(data), *node)
-    with open(os.path.join(folder, name + ".fbx"), "wb") as file:
-        file.write(data + b"\0" * 13)
-
-
 def main():
     folder, rng = sys.argv[1], random.Random(int(sys.argv[2]))
     for i in range(12):
         Gltf(rng).write(folder, "random_%d" % i)
         bvh(rng, folder, "random_%d" % i)
-        fbx(rng, folder, "random_%d" % i)
 
 
 if __name__ == "__main__":
