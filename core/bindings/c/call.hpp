@@ -1,0 +1,153 @@
+// One call through the C interface: its refusal, and the error that the caller gets.
+//
+// Arguments are read by functions that cannot fail: they give a harmless value and note the first refusal
+// here. So a generated function reads all of its arguments, asks refused() once, and calls the library.
+#pragma once
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <span>
+
+#include "tendril/c.h"
+#include "tendril/result.hpp"
+
+namespace tendril::door {
+
+/// The most elements of a list: more is taken for a wrong number, before it is read.
+inline constexpr std::size_t most_elements = 1'000'001;
+
+/// A message in the making: what does not fit is cut.
+class Text {
+  public:
+    Text(char* text, std::size_t size) noexcept : text_(text), left_(size) { *text = '\0'; }
+    [[gnu::format(printf, 2, 3)]] void add(const char* format, ...) noexcept {
+        std::va_list values;
+        va_start(values, format);
+        add(format, values);
+        va_end(values);
+    }
+    [[gnu::format(printf, 2, 0)]] void add(const char* format, std::va_list values) noexcept {
+        const int wanted = std::vsnprintf(text_, left_, format, values);
+        const std::size_t used = std::min(static_cast<std::size_t>(wanted), left_ - 1);
+        text_ += used;
+        left_ -= used;
+    }
+
+  private:
+    char* text_;
+    std::size_t left_;
+};
+
+/// An argument, a member or an element, for messages: "options.limits[2].kind".
+struct Place {
+    const char* name;
+    const Place* above = nullptr;
+    std::size_t index = TENDRIL_NONE;
+
+    void write(Text& text) const noexcept {
+        if (above != nullptr) above->write(text);
+        if (index != TENDRIL_NONE)
+            text.add("[%zu]", index);
+        else
+            text.add(above != nullptr ? ".%s" : "%s", name);
+    }
+};
+
+class Call {
+  public:
+    Call(const char* operation, tendril_error* error) noexcept : operation_(operation), error_(error) {}
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+    bool refused() const noexcept { return code_ != TENDRIL_OK; }
+    tendril_code code() const noexcept { return code_; }
+
+    /// Only the first refusal counts. The message: "ik_solve: joints is NULL".
+    [[gnu::format(printf, 4, 5)]] void refuse(tendril_code code, const Place& place, const char* format,
+                                              ...) noexcept {
+        if (refused()) return;
+        code_ = code;
+        if (error_ == nullptr) return;
+        error_->code = code;
+        Text text(error_->message, sizeof error_->message);
+        text.add("%s: ", operation_);
+        place.write(text);
+        text.add(" ");
+        std::va_list values;
+        va_start(values, format);
+        text.add(format, values);
+        va_end(values);
+    }
+    /// In the library's own words.
+    void refuse(const Result& result) noexcept {
+        if (result || refused()) return;
+        static_assert(static_cast<int>(ErrorCode::AlreadyExists) == TENDRIL_ALREADY_EXISTS);
+        code_ = static_cast<tendril_code>(result.code());
+        if (error_ == nullptr) return;
+        error_->code = code_;
+        Text(error_->message, sizeof error_->message).add("%s", result.message());
+    }
+    void no_memory() noexcept { refuse(TENDRIL_NO_MEMORY, {"memory"}, "ran out; nothing has changed"); }
+
+    const char* operation() const noexcept { return operation_; }
+
+  private:
+    const char* operation_;
+    tendril_error* error_;
+    tendril_code code_ = TENDRIL_OK;
+};
+
+/// Nothing that is thrown leaves: the library throws only where memory runs out.
+template <class Body>
+tendril_code call(const char* operation, tendril_error* error, Body&& body) noexcept {
+    Call made(operation, error);
+    try {
+        body(made);
+    } catch (const std::bad_alloc&) {
+        made.no_memory();
+    }
+    return made.code();
+}
+
+/// A pointer and a number of elements. Points and rotations lie in memory as the library has them.
+template <class Cpp, class C>
+std::span<Cpp> list(Call& call, const Place& place, C* elements, std::size_t count,
+                    bool may_be_null) noexcept {
+    static_assert(sizeof(Cpp) == sizeof(C) && alignof(Cpp) == alignof(C));
+    if (elements == nullptr) {
+        if (count > 0 || !may_be_null) call.refuse(TENDRIL_NULL_ARGUMENT, place, "is NULL");
+        return {};
+    }
+    if (count > most_elements) {
+        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has %zu elements; %zu are the most", count,
+                    most_elements);
+        return {};
+    }
+    return {reinterpret_cast<Cpp*>(elements), count};
+}
+
+/// An enumeration as a number: the caller may have given any.
+template <class C>
+std::uint32_t number_of(const C& given) noexcept {
+    static_assert(sizeof(C) == sizeof(std::uint32_t));
+    std::uint32_t number;
+    std::memcpy(&number, &given, sizeof number);
+    return number;
+}
+template <class Cpp, class C>
+void read_choice(Call& call, const Place& place, const C& given, Cpp& to,
+                 std::span<const char* const> names) noexcept {
+    const std::uint32_t number = number_of(given);
+    if (number < names.size())
+        to = static_cast<Cpp>(number);
+    else
+        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "must be one of %s to %s, got %u", names.front(),
+                    names.back(), number);
+}
+
+}  // namespace tendril::door

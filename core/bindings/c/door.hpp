@@ -1,0 +1,62 @@
+// The few calls whose form differs in C: the library's answers as a Result, and states as bytes.
+#pragma once
+
+#include "../output_tables.hpp"
+#include "handles.hpp"
+#include "structs.hpp"
+#include "tendril/ik/solver.hpp"
+#include "tendril/ik/two_bone.hpp"
+#include "tendril/signal/filter.hpp"
+
+namespace tendril::door {
+
+Result solve(ik::Solver& solver, ik::Method method, std::span<glm::vec3> joints, ik::State& state,
+             glm::vec3 target, const ik::Options& options, ik::Report& report) noexcept;
+Result explain(ik::Solver& solver, std::span<const glm::vec3> joints, const ik::State& state,
+               glm::vec3 target, const ik::Options& options, ik::ActiveLimit& limit, int& found) noexcept;
+Result rotations(const ik::State& state, std::span<glm::quat> world, std::span<glm::quat> local) noexcept;
+Result two_bone(const ik::TwoBone& limb, glm::vec3 target, const ik::TwoBoneOptions& options,
+                ik::TwoBoneResult& result) noexcept;
+
+/// Whether a filter takes an input and a time: it would go on without a word.
+Result check_step(double input, double seconds) noexcept;
+template <class Filter, class State>
+Result step(const Filter& filter, State& state, double input, double seconds, double& value) noexcept {
+    if (const Result bad = check_step(input, seconds); !bad) return bad;
+    value = signal::step(filter, state, input, seconds);
+    return {};
+}
+
+/// A state as the caller keeps it. No allocation, if the state that it is read to had the size before.
+std::size_t bytes_of(const ik::State&, std::size_t bones) noexcept;
+bool read_bytes(const std::byte* bytes, std::size_t bones, ik::State& state);
+void write_bytes(const ik::State& state, std::byte* bytes) noexcept;
+
+template <class Byte, class State>
+class StateBytes {
+  public:
+    template <class Void>
+    StateBytes(Call& call, const Place& place, Void* bytes, std::size_t size, std::size_t count,
+               State& memory) noexcept
+        : state(memory), call_(call), place_(place), bytes_(static_cast<Byte*>(bytes)), count_(count) {
+        const std::size_t needed = bytes_of(memory, count);
+        if (bytes == nullptr)
+            call.refuse(TENDRIL_NULL_ARGUMENT, place, "is NULL");
+        else if (size < needed)
+            call.refuse(TENDRIL_SHORT_BUFFER, place, "has %zu bytes; it takes %zu", size, needed);
+    }
+    void read() {
+        if (!call_.refused() && !read_bytes(bytes_, count_, state))
+            call_.refuse(TENDRIL_INVALID_ARGUMENT, place_, "is not a state of this object");
+    }
+    void give() noexcept { write_bytes(state, bytes_); }
+    State& state;
+
+  private:
+    Call& call_;
+    Place place_;
+    Byte* bytes_;
+    std::size_t count_;
+};
+
+}  // namespace tendril::door
