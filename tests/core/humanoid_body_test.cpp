@@ -1,5 +1,5 @@
 // Whole-body reaching, on the figure of 1.8 m.
-#include <tendril/humanoid/body.hpp>
+#include <tendril/humanoid/hold.hpp>
 
 #include "humanoid_figure.hpp"
 #include "tests/labels.hpp"
@@ -372,6 +372,89 @@ TEST(HumanoidBodyMap, NamesTheBoneThatIsNotBelowTheHips) {
     ASSERT_FALSE(body);
     EXPECT_STREQ(body.message(), "Foot.L is not below the hips. Pick another node for LeftFoot");
 }
+
+struct Kept {
+    bool limits = false, capsules = false, balance = false, hold = false;
+};
+
+/// The figure and its targets at another size, mirrored, or with the targets in another order.
+struct Alike {
+    double scale = 1.0;
+    bool mirrored = false, reversed = false;
+
+    glm::dvec3 at(const glm::dvec3& v) const { return scale * glm::dvec3(mirrored ? -v.x : v.x, v.y, v.z); }
+    Effector of(Effector effector) const {  // hips, head, then pairs
+        return mirrored && effector > Effector::Head ? static_cast<Effector>(static_cast<int>(effector) ^ 1)
+                                                     : effector;
+    }
+    /// The effectors' and knees' positions in each of some solves, taken back.
+    std::vector<glm::dvec3> solve(const Kept& kept, std::vector<BodyTarget> targets,
+                                  ObjectPose object) const {
+        std::vector<Node> nodes = make_figure({}).nodes();
+        for (Node& node : nodes) node.rest.translation *= scale;
+        const Skeleton skeleton = *Skeleton::make(std::move(nodes));
+        const BoneMap map = match_bones(skeleton);
+        const auto capsules = kept.capsules ? default_capsules(skeleton, map) : std::vector<BodyCapsule>{};
+        Body body =
+            *Body::make(skeleton, map, kept.limits ? default_limits(skeleton, map) : no_limits(), capsules);
+        for (BodyTarget& each : targets) each.effector = of(each.effector), each.position = at(each.position);
+        std::vector<Grip> grips{{of(Effector::LeftHand), at({0.2, 0, 0})},
+                                {of(Effector::RightHand), at({-0.2, 0, 0})}};
+        object.position = at(object.position);
+        if (reversed) std::ranges::reverse(targets), std::ranges::reverse(grips);
+        BodyState state;
+        HoldState holding;
+        HoldOptions options;
+        options.body.balance = kept.balance;
+        std::vector<glm::dvec3> result;
+        for (int i = 0; i < (kept.balance ? 1 : 3); ++i) {
+            auto pose = rest_pose(skeleton);
+            if (kept.hold)
+                EXPECT_TRUE(hold(body, pose, targets, {grips, object}, state, holding, options));
+            else
+                EXPECT_TRUE(body.solve(pose, targets, state, options.body));
+            const auto now = positions_of(skeleton, pose);
+            for (const Effector each : five)
+                for (const std::int32_t node :
+                     {map[bone_of(of(each))].node,
+                      skeleton[static_cast<std::size_t>(map[bone_of(of(each))].node)].parent})
+                    result.push_back(at(now[static_cast<std::size_t>(node)]) / (scale * scale));
+        }
+        return result;
+    }
+};
+
+class HumanoidBodyAlike : public testing::TestWithParam<Kept> {};
+LABEL(slow, "Kept/HumanoidBodyAlike.*");
+
+TEST_P(HumanoidBodyAlike, AnySizeSideAndOrderGivesTheSamePose) {
+    RandomPoses random(11);
+    const Figured figure;
+    const double height = 1.8, sizes[]{0.01, 0.1, 2.0, 10.0, 100.0};
+    for (int i = 0; i < 200; ++i) {
+        std::vector<BodyTarget> targets;
+        for (const Effector each : five) {
+            const bool hand = each <= Effector::RightHand && each >= Effector::LeftHand;
+            if (random(0.0, 1.0) < 0.4 || (hand && GetParam().hold)) continue;
+            targets.push_back(
+                {each, figure.at(figure.rest, bone_of(each)) + random.vector(hand ? 0.5 : 0.2)});
+            if (random(0.0, 1.0) < 0.3) targets.back().weight = random(0.1, 5.0);
+        }
+        const ObjectPose object{glm::dvec3(0.0, 1.15, 0.45) + random.vector(0.25)};
+        const auto solve = [&](const Alike& alike) { return alike.solve(GetParam(), targets, object); };
+        const auto pose = solve({});
+        EXPECT_EQ(pose, solve({.reversed = true})) << i;
+        EXPECT_LT(farthest(pose, solve({.scale = sizes[i % 5]})), 1e-4 * height) << i << ' ' << sizes[i % 5];
+        // Limits count in floats, and balance magnifies their rounding.
+        EXPECT_LT(farthest(pose, solve({.mirrored = true})), (GetParam().balance ? 1e-4 : 1e-5) * height)
+            << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kept, HumanoidBodyAlike,
+                         testing::Values(Kept{}, Kept{.limits = true}, Kept{.limits = true, .capsules = true},
+                                         Kept{.limits = true, .capsules = true, .balance = true},
+                                         Kept{.limits = true, .capsules = true, .hold = true}));
 
 }  // namespace
 }  // namespace tendril::test

@@ -9,9 +9,6 @@
 
 namespace tendril::humanoid::detail {
 
-/// HoldOptions::turn_length of a figure of 1.8 m, metres.
-inline constexpr double default_turn_length = 0.3;
-
 /// Closes the grips with the arms and the object, once the body has reached for them.
 class HoldSolve {
   public:
@@ -19,7 +16,7 @@ class HoldSolve {
         : work_(*body.work_),
           object_(object),
           options_(options),
-          turn_length_(options.turn_length.value_or(default_turn_length * body.work_->size)),
+          turn_length_(options.turn_length.value_or(0.3 * body.work_->size)),
           pose_(object.asked) {
         pose_.rotation = rig::normalised(pose_.rotation);
         target_ = pose_;
