@@ -258,10 +258,11 @@ void pose_rows(const RigPanel& panel) {
 void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
     show_verdict(rig_verdict(panel.part), panel.colours, emit);
-    unit_inspector(panel);
+    if (panel.part.selected.unit_last) unit_inspector(panel);
     element_inspector(panel);
     why_rows(panel);
     pose_rows(panel);
+    if (!panel.part.selected.unit_last) unit_inspector(panel);
     incident_rows(workspace, panel.colours, emit);  // last, so that fields stay put during a drag to a limit
 }
 

@@ -103,7 +103,7 @@ void clip_rows(const RigPart& part, Emit& emit) {
     if (!take.recording) {
         if (row_button("Record", 3, true, "Starts a new take, and keeps it as a clip at Stop"))
             emit("rig.clip.start");
-    } else if (row_button(("Stop " + seconds_text(take.last) + "###stop").c_str(), 3, take.last > 0,
+    } else if (row_button("Stop", 3, take.last > 0,
                           "Keeps how the bones moved since Record. A change of the rig stops it too")) {
         emit("rig.clip.record");
     }
@@ -122,8 +122,9 @@ void clip_rows(const RigPart& part, Emit& emit) {
         ImGui::ProgressBar(
             static_cast<float>(part.clip_left->done()) / static_cast<float>(part.clip->frames()),
             {-1.0f, 0.0f}, "");
-    if (const std::size_t room = clip_room(part); take.recording && take.last > room)
-        note("The clip will hold the last " + seconds_text(room) + ".");
+    if (const std::size_t room = clip_room(part); take.recording)
+        note(seconds_text(take.last) + " recorded" +
+             (take.last > room ? "; the clip will hold the last " + seconds_text(room) : "") + '.');
     else if (part.clip)
         note(clip_text(part));
 }

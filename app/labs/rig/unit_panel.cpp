@@ -62,11 +62,10 @@ void add_unit_menu(const RigPanel& panel) {
     const bool pressed =
         row_button("Add a unit", 1, true,
                    ("Choose a kind; the new unit runs last" + (loop.empty() ? "" : " in " + loop)).c_str());
-    constexpr float width = 30.0f;  // em: room for the longest reason why not
-    constexpr int kinds = std::variant_size_v<rig::Operation::Variant>;
-    if (!begin_list_of_button("add unit", pressed, {.width = width * ImGui::GetFontSize(), .rows = kinds}))
+    constexpr float width = 24.0f;  // em: room for the longest reason why not
+    if (!begin_list_of_button("add unit", pressed, {.width = width * ImGui::GetFontSize(), .rows = 16}))
         return;
-    for (std::size_t i = 0; i < kinds; ++i) {
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
         if (!list_row(capitalised(operation_title(i)), false, offer.unit ? nullptr : offer.needs)) continue;
         ArgumentList arguments;

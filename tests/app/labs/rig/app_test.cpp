@@ -27,6 +27,7 @@ TEST_F(RigApp, ADragInItsRectangleFollowsThePointer) {
 TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
     const std::string first_source = "look 1 1";  // its translation in the scene
     const auto keys = [&](const std::vector<const char*>& pressed) {
+        run("rig.select");
         run("rig.select", {{"element", "head"}, {"unit", "aim"}});
         wait(3);
         click({1190.0f, 413.0f}, 30);

@@ -119,7 +119,7 @@ TEST_F(RigClips, HoldsOnlyTheTicksBetweenRecordAndStop) {
     expect_refused("rig.clip.record", Json::object(), {"played since"});
     wait(24);
     set_folded(workspace.settings, rig_lab, false);
-    EXPECT_TRUE(test::says(test::PanelReader().panel(lab(), workspace), "Stop 0.4 s"));
+    EXPECT_TRUE(test::says(test::PanelReader().panel(lab(), workspace), "Stop Clear 0.4 s recorded"));
     EXPECT_EQ(rig_part(reopened()).take, part().take);
     run("rig.clip.record");
     EXPECT_EQ(part().clip->began, 90u);

@@ -57,6 +57,9 @@ TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
         Json unit = **offer.unit;
         unit["name"] = "new";
         run("rig.unit.add", unit);
+        EXPECT_TRUE(test::says(inspector_text(), "Unit: Element")) << "the one chosen last is first";
+        run("rig.select", {{"element", "bone 4"}, {"unit", "new"}});
+        EXPECT_TRUE(test::says(inspector_text(), "Element Unit:"));
         const rig::Unit& added = *unit_row(part(), "new")->unit;
         const Json json = save_fields(added);
         std::set<std::string> listed, members;
