@@ -437,8 +437,8 @@ typedef struct tendril_signal_spring {
     double critical_damping;
     /* 1/s^2, -1e9 to 1e9, default 0. Force on a mass of 1, at most 1e9: shifts the target by force / w^2 */
     double force;
-    /* 0 to 1, default 0. How much the target's velocity is anticipated: at 1 steady motion is followed without lag,
-       and jumps overshoot */
+    /* 0 to 1, default 0. How much of the target's velocity is anticipated: at 1 the spring follows steady motion
+       without lag, but overshoots jumps */
     double target_velocity_amount;
 } tendril_signal_spring;
 TENDRIL_DEFAULT(tendril_signal_spring, TENDRIL_STRUCT_SIGNAL_SPRING)
