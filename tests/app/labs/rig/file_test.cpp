@@ -258,7 +258,5 @@ INSTANTIATE_TEST_SUITE_P(Commands, RigLabReference,
                              return file.substr(0, file.find('.'));
                          });
 
-class RigLabAimReference : public RigTest {};
-
 }  // namespace
 }  // namespace tendril::app
