@@ -99,6 +99,27 @@ class CardWatch : public testing::Test {
     }
     bool done() const { return !progress_.done.empty() && progress_.done.at(0); }
 
+    struct Flip {
+        double at;
+        int joint = 0;
+        const char* cause = "";
+    };
+    /// Moves the ball along x in steps of 0.25; each flip comes at its place.
+    void drag(double from, double to, double aside, const std::vector<Flip>& flips = {}) {
+        const double step = from < to ? 0.25 : -0.25;
+        for (double x = from; step * (to - x) >= 0.0; x += step) {
+            ++moment_;
+            run("move", {{"what", "ball"}, {"to", {x, aside, 0}}});
+            for (const Flip& flip : flips)
+                if (x == flip.at)
+                    state_["events"].push_back(
+                        {{"kind", "flip"}, {"tick", moment_}, {"joint", flip.joint}, {"cause", flip.cause}});
+            part_ = std::make_shared<test::TestPart>();
+            for (int i = 0; i < 3; ++i) watch(state_);
+        }
+    }
+
+    Json state_{{"events", Json::array()}};
     Card card_ = only(good_card());
     CardProgress progress_;
     std::shared_ptr<const Part> part_ = std::make_shared<test::TestPart>();
@@ -176,22 +197,11 @@ TEST_F(CardWatch, AnEventMustBeOfThatKindAndComeWithTheCommand) {
 
 TEST_F(CardWatch, ADragRepeatedAfterACureMustLeadPastThePlaceAndCauseNothing) {
     use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
-    Json state{{"events", Json::array()}};
-    const auto drag = [&](double from, double to, double aside, double flips_at = -9.0) {
-        const double step = from < to ? 0.25 : -0.25;
-        for (double x = from; step * (to - x) >= 0.0; x += step) {
-            ++moment_;
-            run("move", {{"what", "ball"}, {"to", {x, aside, 0}}});
-            if (x == flips_at) state["events"].push_back({{"kind", "flip"}, {"tick", moment_}});
-            part_ = std::make_shared<test::TestPart>();
-            for (int i = 0; i < 3; ++i) watch(state);
-        }
-    };
     drag(-1, 1, 0);
     run("cure", Json::object());
     drag(1, -1, 0);
     EXPECT_FALSE(done()) << "nothing had happened before the cure";
-    drag(-1, 1, 0, 0);
+    drag(-1, 1, 0, {{0}});
     drag(1, -1, 0);
     EXPECT_FALSE(done()) << "no cure came first";
     run("cure", Json::object());
@@ -201,7 +211,7 @@ TEST_F(CardWatch, ADragRepeatedAfterACureMustLeadPastThePlaceAndCauseNothing) {
     drag(-0.25, -1, 0);
     drag(-1, 1, 0.75);
     EXPECT_FALSE(done()) << "somewhere else";
-    drag(1, -1, 0.25, 0.25);
+    drag(1, -1, 0.25, {{0.25}});
     EXPECT_FALSE(done()) << "it flipped again";
     drag(-1, 1, 0.25);
     EXPECT_FALSE(done()) << "which needs another cure";
@@ -212,42 +222,23 @@ TEST_F(CardWatch, ADragRepeatedAfterACureMustLeadPastThePlaceAndCauseNothing) {
 
 TEST_F(CardWatch, AnotherFlipAfterTheCureOnlyAsksForAnotherPass) {
     use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
-    struct Flip {
-        double at;
-        int joint;
-        const char* cause;
-    };
-    Json state{{"events", Json::array()}};
-    const auto drag = [&](double from, double to, const std::vector<Flip>& flips) {
-        const double step = from < to ? 0.25 : -0.25;
-        for (double x = from; step * (to - x) >= 0.0; x += step) {
-            ++moment_;
-            run("move", {{"what", "ball"}, {"to", {x, 0, 0}}});
-            for (const Flip& flip : flips)
-                if (x == flip.at)
-                    state["events"].push_back(
-                        {{"kind", "flip"}, {"tick", moment_}, {"joint", flip.joint}, {"cause", flip.cause}});
-            part_ = std::make_shared<test::TestPart>();
-            for (int i = 0; i < 3; ++i) watch(state);
-        }
-    };
     const auto begin = [&] {
         progress_ = {};
-        drag(-1, 1, {{0, 1, "passed the pole"}});
+        drag(-1, 1, 0, {{0, 1, "passed the pole"}});
         run("cure", Json::object());
     };
     begin();
-    drag(1, -1, {{0.75, 3, "another pose"}});
+    drag(1, -1, 0, {{0.75, 3, "another pose"}});
     EXPECT_TRUE(done()) << "before it came to the place";
     begin();
-    drag(1, -1, {{0, 3, "another pose"}});
+    drag(1, -1, 0, {{0, 3, "another pose"}});
     EXPECT_FALSE(done()) << "where it passed";
-    drag(-1, 1, {});
+    drag(-1, 1, 0);
     EXPECT_TRUE(done()) << "without another cure";
     for (const Flip again : {Flip{0.75, 1, "another pose"}, Flip{0.75, 3, "passed the pole"}}) {
         begin();
-        drag(1, -1, {again});
-        drag(-1, 1, {});
+        drag(1, -1, 0, {again});
+        drag(-1, 1, 0);
         EXPECT_FALSE(done()) << again.joint << ": it came back, which needs another cure";
     }
 }
