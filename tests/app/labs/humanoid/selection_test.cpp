@@ -35,13 +35,15 @@ class HumanoidSelection : public HumanoidTest {
     test::PanelReader reader_;
 };
 
-TEST_F(HumanoidSelection, AddsNodesAndListsTheFirstEight) {
+TEST_F(HumanoidSelection, AddsRemovesAndListsTheFirstEight) {
     select({"LeftHand", "RightFoot"});
     run("humanoid.select", {{"nodes", {"Head", "Hips"}}, {"add", true}});
     EXPECT_EQ(selected(), (Names{"Head", "Hips", "LeftHand", "RightFoot"})) << "by name";
     EXPECT_EQ(active(), "Hips") << "the last one";
+    run("humanoid.select", {{"node", "Head"}, {"add", true}});
     run("humanoid.select", {{"add", true}});
-    EXPECT_EQ(state().at("selection").size(), 4u);
+    EXPECT_EQ(selected(), (Names{"Hips", "LeftHand", "RightFoot"})) << "added again, it goes";
+    EXPECT_EQ(state().at("selection").size(), 3u);
     select({"Hips", "Spine", "Head", "LeftHand", "RightHand", "LeftFoot", "RightFoot", "LeftLowerArm",
             "RightLowerArm", "LeftLowerLeg"});
     expect_says(inspector(), {" and 2 more"});
