@@ -221,10 +221,7 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     const auto begin = Clock::now();
     const ik::Report report = solver.solve(method, joints, state, asked.target, told);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-    std::string reason;
-    if (report.status == ik::Status::InvalidInput)
-        reason = solver.check_input(method, joints, state, asked.target, told).message();
-    return {asked, method, report, taken.count(), joints, std::nullopt, nullptr, std::move(reason)};
+    return {asked, method, report, taken.count(), joints, std::nullopt, nullptr, report.accepted.message()};
 }
 
 /// Solves one row, starting from the pose of the row before.

@@ -75,7 +75,7 @@ void pull_chain(Chain& chain, const std::string& mode, glm::vec3 to) {
     if (mode == "forward") require(chain.forward(to));
     if (mode == "backward") require(chain.backward(to));
     if (mode == "with_index") require(chain.with_index(chain.size() / 2, to));
-    if (mode == "fixed") require(chain.fixed(to).outcome);
+    if (mode == "fixed") require(chain.fixed(to).accepted);
 }
 
 void count_segments(benchmark::State& state, std::size_t count) {

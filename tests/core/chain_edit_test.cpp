@@ -303,7 +303,7 @@ std::string message_of(const Result& result) {
     return result.message();
 }
 std::string message_of(const FixedResult& result) {
-    return result.outcome.message();
+    return result.accepted.message();
 }
 std::string message_of(const Expected<Chain>& chain) {
     return chain.message();
@@ -335,7 +335,7 @@ TEST(ChainRefusals, BadCoordinates) {
             });
             expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.forward(point); });
             expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.backward(point); });
-            expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.fixed(point).outcome; });
+            expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.fixed(point).accepted; });
             expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.with_index(1, point); });
             expect_refused(ErrorCode::InvalidArgument, chain,
                            [&] { return chain.set_default_direction(point); });

@@ -75,7 +75,7 @@ TEST(ChainMemory, PullsAndRemovalsAllocateNothing) {
     without_memory([&] {
         expect_ok(chain.forward({1, 2, 3}));
         expect_ok(chain.backward({3, 2, 1}));
-        expect_ok(chain.fixed({1, 1, 1}, {.iterations = 5}).outcome);
+        expect_ok(chain.fixed({1, 1, 1}, {.iterations = 5}).accepted);
         expect_ok(chain.with_index(20, {0, 9, 0}));
         expect_ok(chain.set_length(3, 2.0f));
         expect_ok(chain.remove(7));

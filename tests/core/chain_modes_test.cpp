@@ -133,7 +133,7 @@ TEST(ChainModes, HugeLengthsStayFinite) {
     EXPECT_TRUE(Holds(chain));
     expect_ok(chain.with_index(1000, {-1e9f, 1e9f, 1e9f}));
     EXPECT_TRUE(Holds(chain));
-    expect_ok(chain.fixed({1e9f, 1e9f, 1e9f}, {.iterations = 3}).outcome);
+    expect_ok(chain.fixed({1e9f, 1e9f, 1e9f}, {.iterations = 3}).accepted);
     EXPECT_TRUE(Holds(chain));
     for (std::size_t i = 0; i < chain.size(); ++i) expect_ok(chain.set_length(i, 0.25f));
     expect_ok(chain.forward({0, 0, 0}));
@@ -193,7 +193,7 @@ Pin pull(Chain& chain, Random& random) {
             const bool negative = random.chance(20);
             const int iterations = static_cast<int>(random.below(6)) - (negative ? 3 : -1);
             pin.outcome =
-                chain.fixed(target, {.iterations = iterations, .tolerance = some_length(random)}).outcome;
+                chain.fixed(target, {.iterations = iterations, .tolerance = some_length(random)}).accepted;
             return pin;
         }
         default: {
@@ -295,7 +295,7 @@ Result apply(Chain& chain, const Json& op) {
     if (name == "forward") return chain.forward(target());
     if (name == "backward") return chain.backward(target());
     if (name == "with_index") return chain.with_index(index(), target());
-    if (name == "fixed") return chain.fixed(target(), {.iterations = op.value("iterations", 1)}).outcome;
+    if (name == "fixed") return chain.fixed(target(), {.iterations = op.value("iterations", 1)}).accepted;
     return {ErrorCode::NotFound, "no operation is called " + name};
 }
 

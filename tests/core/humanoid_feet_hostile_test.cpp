@@ -66,7 +66,7 @@ TEST_F(FeetHostile, AnyPoseOnAnyGroundGivesFinitePosesOfTheSameLengths) {
             options.weight = number(0.0, 1.0) < 0.5 ? 1.0 : number(0.0, 1.0);
             options.root.rotation = rotation();
             const FeetReport report = feet.step(made, below, dt(), state, options);
-            ASSERT_TRUE(report.valid);
+            ASSERT_TRUE(report.accepted);
             for (const FootReport& foot : report.feet) {
                 ASSERT_TRUE(is_finite(foot.heel));
                 ASSERT_TRUE(is_finite(foot.toe));
@@ -87,10 +87,10 @@ TEST_F(FeetHostile, RefusedInputChangesNothing) {
     FeetState state;
     const Ground flat = *Ground::flat();
     std::vector<rig::Transform> good = rest_pose(skeleton);
-    ASSERT_TRUE(feet.step(good, flat, 0.1, state).valid);
+    ASSERT_TRUE(feet.step(good, flat, 0.1, state).accepted);
     const FeetState before = state;
     const auto refuses = [&](std::vector<rig::Transform> made, const FeetOptions& options) {
-        const bool valid = feet.step(made, flat, 0.1, state, options).valid;
+        const bool valid = feet.step(made, flat, 0.1, state, options).accepted.ok();
         return !valid && state == before;
     };
     for (const double bad : {nan, infinite, 1e300}) {
@@ -122,7 +122,7 @@ TEST_F(FeetHostile, ZeroLengthBonesAndZeroScalesAreAccepted) {
         made[static_cast<std::size_t>(map[Bone::LeftUpperLeg].node)].scale = glm::dvec3(scale);
         made[static_cast<std::size_t>(map[Bone::RightFoot].node)].translation = glm::dvec3(0.0);
         const FeetReport report = feet.step(made, *Ground::stairs(0.1, 0.2), 1.0 / 60, state);
-        EXPECT_TRUE(report.valid);
+        EXPECT_TRUE(report.accepted);
         for (const rig::Transform& each : made) EXPECT_TRUE(is_finite(each.translation));
         EXPECT_TRUE(check(state));
     }

@@ -155,7 +155,7 @@ TEST(SpringChain, KeepsLengthsConeAndAllOtherNodes) {
         const double x = number(-0.3, 0.3), y = number(0.8, 1.2), z = number(-0.3, 0.3);
         const SpringOptions options{.critical_damping = 0.1, .max_angle = 0.5};
         const std::vector<rig::Transform> pose = antenna.step({x, y, z}, options, 1.0 / 60);
-        ASSERT_TRUE(antenna.report.valid);
+        ASSERT_TRUE(antenna.report.accepted);
         farthest = std::max(farthest, antenna.report.angle);
         for (std::size_t k = 0; k < antenna.state.masses.size(); ++k) {
             const SpringMass& mass = antenna.state.masses[k];
@@ -279,7 +279,7 @@ TEST(SpringChain, StaysOutsideAColliderWithLengthsKept) {
             std::vector<rig::Transform> pose = rest_pose(antenna.skeleton);
             pose[0].translation = {0.1 * std::sin(0.3 * frame), 1.0, 0.0};
             antenna.report = antenna.chain.step(pose, options, 1.0 / 60, antenna.state, {&collider, 1});
-            ASSERT_TRUE(antenna.report.valid);
+            ASSERT_TRUE(antenna.report.accepted);
             const std::vector<glm::dvec3> points = positions_of(antenna.skeleton, pose);
             for (std::size_t i = antenna.root; i + 1 < points.size(); ++i) {
                 ASSERT_NEAR(glm::distance(points[i], points[i + 1]), 0.1, 1e-12);
@@ -350,7 +350,7 @@ TEST(SpringChain, AcceptsBranchesAndASingleNode) {
     for (int frame = 0; frame < 20; ++frame) {
         std::vector<rig::Transform> pose = rest_pose(skeleton);
         pose[0].translation.z += frame < 10 ? 0.02 * frame : 0.2;
-        EXPECT_TRUE(antler.step(pose, {}, 1.0 / 60, antler_state).valid);
+        EXPECT_TRUE(antler.step(pose, {}, 1.0 / 60, antler_state).accepted);
         const SpringReport report = ear.step(pose, {}, 1.0 / 60, ear_state);
         bent = std::max(bent, report.angle);
     }
@@ -409,9 +409,9 @@ TEST(SpringChain, SurvivesAnyInputWithoutAllocating) {
                                     : antenna.chain.step(pose, options, dt, antenna.state, colliders);
         });
         if (round % 19 == 0 && round % 3 != 0 && !colliders.empty()) {
-            ASSERT_FALSE(report.valid);
+            ASSERT_FALSE(report.accepted);
         }
-        if (!report.valid) {
+        if (!report.accepted) {
             ASSERT_EQ(0, std::memcmp(pose.data(), before.data(), pose.size() * sizeof(rig::Transform)));
             ASSERT_EQ(0, std::memcmp(antenna.state.masses.data(), state.masses.data(),
                                      state.masses.size() * sizeof(SpringMass)));

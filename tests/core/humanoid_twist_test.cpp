@@ -158,7 +158,7 @@ TEST_F(HumanoidTwist, HandIkTurnsTwistNodesToo) {
         .position = {0.718, 1.45, 0.0}, .rotation = glm::angleAxis(120.0 * one_degree, along), .weight = 1.0};
     for (int i = 0; i < 300; ++i) {
         pose = rest;
-        ASSERT_TRUE(hands.step(pose, targets, 1.0 / 60.0, state, {.view = 3.14}).valid);
+        ASSERT_TRUE(hands.step(pose, targets, 1.0 / 60.0, state, {.view = 3.14}).accepted);
     }
     EXPECT_NEAR(turned(pose, "LeftHand"), 120.0, 1.0);
     EXPECT_NEAR(turned(pose, "lowerarm_twist_01_l"), 60.0, 3.0);

@@ -395,29 +395,6 @@ TEST(IkCurve, DegenerateCurvesGiveFiniteChainsOfTheirLengths) {
         }
 }
 
-TEST(IkCurve, BadInputIsRefusedAndChangesNothing) {
-    const Points good{{0, 0, 0}, {1, 1, 0}};
-    Placed chain({0.5f, 0.5f});
-    const Placed before = chain;
-    const std::vector<float> nan_weights{1.0f, nan}, one_weight{1.0f};
-    const Points too_many(5000, {0, 1, 0});
-    EXPECT_EQ(chain.place({}).status, Status::InvalidInput);
-    EXPECT_EQ(chain.place({{0, 0, 0}}).status, Status::InvalidInput);
-    EXPECT_EQ(chain.place(too_many).status, Status::InvalidInput);
-    EXPECT_EQ(chain.place({{0, 0, 0}, {1, nan, 0}}).status, Status::InvalidInput);
-    EXPECT_EQ(chain.place({{0, 0, 0}, {2e9f, 0, 0}}).status, Status::InvalidInput);
-    const CurveOptions bad[]{{.max_factor = 1.0f}, {.weights = one_weight}, {.weights = nan_weights}};
-    for (const CurveOptions& options : bad)
-        EXPECT_EQ(chain.place(good, options).status, Status::InvalidInput);
-    Placed long_bone({-1.0f, 0.5f});
-    EXPECT_EQ(long_bone.place(good).status, Status::InvalidInput);
-    Placed no_unit({1.0f, 1.0f}, {{1, 0, 0}, {0.5f, 0, 0}});
-    EXPECT_EQ(no_unit.place(good).status, Status::InvalidInput);
-    EXPECT_EQ(chain.joints, before.joints);
-    EXPECT_EQ(chain.state, before.state);
-    EXPECT_EQ(chain.memory, before.memory);
-}
-
 TEST(IkCurve, AllocatesNothing) {
     Random random(3);
     const Points points = random_points(random, 8);

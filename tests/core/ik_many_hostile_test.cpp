@@ -74,7 +74,7 @@ TEST(SolveMany, ABadTargetHarmsNoOtherChain) {
         const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             if (i % 3 == 0) {
-                EXPECT_EQ(many.reports[i], (ManyReport{.status = Status::InvalidInput}));
+                EXPECT_EQ(many.reports[i], refused_chain);
                 EXPECT_TRUE(same_bits(many.joints[i], crowd.joints[i]));
             } else if (!every) {
                 EXPECT_TRUE(same_bits(many.joints[i], good.joints[i])) << "chain " << i;
@@ -113,7 +113,7 @@ TEST(SolveMany, HostileNumbersNeverGiveNaN) {
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             const bool invalid = each.reports[i].status == Status::InvalidInput;
             EXPECT_EQ(many.reports[i].status == Status::InvalidInput, invalid);
-            EXPECT_TRUE(std::isfinite(many.reports[i].residual));
+            EXPECT_NE(std::isfinite(many.reports[i].residual), invalid);
             for (const glm::vec3& joint : many.joints[i])
                 ASSERT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z));
             EXPECT_TRUE(invalid || Holds(many.joints[i], crowd.lengths[i]));
@@ -133,36 +133,11 @@ TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
     const std::vector<Joints> after = joints_of(batch);
     ASSERT_TRUE(
         std::any_of(after[0].begin(), after[0].end(), [](glm::vec3 joint) { return joint.y > 1e9f; }));
-    ik::solve_many(batch, crowd.targets, reports);
+    EXPECT_TRUE(
+        says(ik::solve_many(batch, crowd.targets, reports).accepted.message(), "solve_many chains[0] 1e9"));
     EXPECT_EQ(reports[0].status, Status::InvalidInput);
     EXPECT_EQ(reports[1].status, Status::Converged);
     EXPECT_TRUE(same_bits(joints_of(batch)[0], after[0]));
-}
-
-TEST(SolveMany, BadOptionsAndListsOfTheWrongSizeMoveNothing) {
-    Random random(16);
-    const Crowd crowd = some_crowd(5, 3, random);
-    Batch batch = batch_of(crowd);
-    const std::vector<Joints> before = joints_of(batch);
-    const auto expect_refused = [&](std::span<const glm::vec3> targets, std::size_t places,
-                                    const ManyOptions& options) {
-        std::vector<ManyReport> reports(places);
-        ik::solve_many(batch, targets, reports, options);
-        for (const ManyReport& report : reports)
-            EXPECT_EQ(report, (ManyReport{.status = Status::InvalidInput}));
-        EXPECT_EQ(joints_of(batch), before);
-    };
-    const std::span<const glm::vec3> all(crowd.targets);
-    expect_refused(all.first(4), 5, {});
-    expect_refused(all, 4, {});
-    expect_refused(all, 6, {});
-    for (const float tolerance : {-1.0f, nan, infinity, 2e9f})
-        expect_refused(all, 5, {.tolerance = tolerance});
-    for (const int most : {0, -1, 1'000'001}) expect_refused(all, 5, {.max_iterations = most});
-    expect_refused(all, 5, {.restarts = -1});
-    expect_refused(all, 5, {.vector_unit = "abacus"});
-    ik::solve_many(batch, all);  // without reports
-    EXPECT_NE(joints_of(batch), before);
 }
 
 TEST(SolveMany, NeedsNoMemoryWithOrWithoutThreads) {

@@ -12,6 +12,9 @@ using ik::ManyOptions;
 using ik::ManyReport;
 using ik::Status;
 
+/// No comparison of residuals takes it for success.
+inline const ManyReport refused_chain{.status = Status::InvalidInput, .residual = infinity};
+
 /// Chains before a solve, and their targets.
 struct Crowd {
     std::vector<Lengths> lengths;

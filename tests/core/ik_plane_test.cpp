@@ -487,32 +487,7 @@ TEST(IkPlane, RotationsFollowTheBones) {
     }
 }
 
-TEST(IkPlane, BadPlanesAreRefused) {
-    const Lengths lengths{1, 1};
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const auto status = [&](const ik::Options& options) {
-        KeptSolver solver(lengths);
-        Joints joints = straight_joints(lengths);
-        const Joints before = joints;
-        const ik::Status got = solver.solve(ik::Method::Fabrik, joints, {1, 0.5f, 0}, options).status;
-        EXPECT_TRUE(got != Status::InvalidInput || joints == before);
-        return got;
-    };
-    EXPECT_EQ(status(in_plane(flat)), Status::Converged);
-    ik::Options without_normal = in_plane(flat);
-    without_normal.plane->normal = glm::vec3(0.0f);
-    EXPECT_EQ(status(without_normal), Status::InvalidInput);
-    for (const AngleLimit bad : {AngleLimit{1, 0}, AngleLimit{nan, 0}, AngleLimit{-4, 0}, AngleLimit{0, 4}}) {
-        const AngleLimit limits[] = {bad, {}};
-        EXPECT_EQ(status(in_plane(flat, limits)), Status::InvalidInput);
-    }
-    const AngleLimit one[1]{};
-    EXPECT_EQ(status(in_plane(flat, one)), Status::InvalidInput);
-    ik::Options both = in_plane(flat);
-    const ik::Limit solid[2]{};
-    both.limits = solid;
-    EXPECT_EQ(status(both), Status::InvalidInput);
-    // Numbers at the ends of their ranges are safe.
+TEST(IkPlane, NumbersAtTheEndsOfTheirRangesAreSafe) {
     Random random(8);
     for (int number = 0; number < 300; ++number) {
         Lengths bones(1 + random.below(5));

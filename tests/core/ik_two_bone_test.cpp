@@ -231,31 +231,6 @@ TEST(IkTwoBone, MatchesTheChainSolver) {
     }
 }
 
-TEST(IkTwoBone, InvalidNumbersMoveNothing) {
-    const TwoBone good{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, 1.5f, 1.5f};
-    const glm::vec3 target(1, 1, 1);
-    for (const float bad : {nan, infinity, -infinity, 2e9f}) {
-        std::vector<TwoBone> limbs(5, good);
-        limbs[0].root.x = limbs[1].mid.y = limbs[2].tip.z = limbs[3].upper = limbs[4].lower = bad;
-        for (const TwoBone& limb : limbs) {
-            const TwoBoneResult result = ik::two_bone(limb, target);
-            EXPECT_EQ(result.status, Status::InvalidInput);
-            EXPECT_TRUE(same_bits(result.mid, limb.mid) && same_bits(result.tip, limb.tip));
-        }
-        for (const glm::vec3 to : {glm::vec3(bad, 0, 0), glm::vec3(0, bad, 0), glm::vec3(0, 0, bad)})
-            EXPECT_EQ(ik::two_bone(good, to).status, Status::InvalidInput);
-        EXPECT_EQ(ik::two_bone(good, target, {.pole = glm::vec3(0, bad, 0)}).status, Status::InvalidInput);
-        EXPECT_EQ(ik::two_bone(good, target, {.start_stretch_ratio = bad}).status, Status::InvalidInput);
-        EXPECT_EQ(ik::two_bone(good, target, {.max_stretch_scale = bad}).status, Status::InvalidInput);
-        EXPECT_EQ(ik::two_bone(good, target, {.twist = bad}).status, Status::InvalidInput);
-    }
-    EXPECT_EQ(ik::two_bone(good, target, {.start_stretch_ratio = 0.0f}).status, Status::InvalidInput);
-    EXPECT_EQ(ik::two_bone(good, target, {.max_stretch_scale = 0.5f}).status, Status::InvalidInput);
-    TwoBone negative = good;
-    negative.upper = -1.0f;
-    EXPECT_EQ(ik::two_bone(negative, target).status, Status::InvalidInput);
-}
-
 TEST(IkTwoBone, SurvivesAnyInput) {
     Random random(given_seed());
     const float sizes[] = {0.0f, 1e-20f, 1e-3f, 1.0f, 1.0f, 7.0f, 1e3f, 1e9f};

@@ -1,20 +1,7 @@
 // Moved-from objects refuse calls or are empty: none reads data that it no longer has.
 #include <gtest/gtest.h>
 
-#include <tendril/humanoid/bent_chain.hpp>
-#include <tendril/humanoid/body.hpp>
-#include <tendril/humanoid/feet.hpp>
-#include <tendril/humanoid/hands.hpp>
-#include <tendril/humanoid/hold.hpp>
-#include <tendril/humanoid/look_at.hpp>
-#include <tendril/humanoid/spring_chain.hpp>
-#include <tendril/ik/linkage.hpp>
-#include <tendril/ik/many.hpp>
-#include <tendril/ik/mechanisms.hpp>
-#include <tendril/ik/solver.hpp>
-#include <tendril/ik/tree.hpp>
-#include <tendril/rig/workspace.hpp>
-#include <tendril/rope/world.hpp>
+#include <tendril/tendril.hpp>
 
 #include "humanoid_figure.hpp"
 #include "memory.hpp"
@@ -101,8 +88,8 @@ TEST(Moved, RopeWorkspacesRefuse) {
     const rope::World before = world;
     rope::Workspace workspace;
     take(workspace);
-    EXPECT_TRUE(world.advance(0.1, workspace).refused);
-    EXPECT_TRUE(world.advance(0.0, workspace).refused);
+    EXPECT_FALSE(world.advance(0.1, workspace).accepted);
+    EXPECT_FALSE(world.advance(0.0, workspace).accepted);
     EXPECT_TRUE(world.state() == before.state());
     EXPECT_FALSE(workspace.use_threads(2));
     EXPECT_FALSE(workspace.use_vector_unit("none"));
@@ -165,11 +152,11 @@ TEST(Moved, BodySolversRefuse) {
     EXPECT_FALSE(body.solve(pose, {}, body_state));
     EXPECT_FALSE(hold(body, pose, {}, {}, body_state, hold_state));
     for (const std::span<rig::Transform> each : {std::span(pose), std::span(pose).first(0)}) {
-        EXPECT_FALSE(feet.step(each, *Ground::flat(), 0.1, feet_state).valid);
-        EXPECT_FALSE(hands.step(each, {}, 0.1, hands_state).valid);
-        EXPECT_FALSE(look.step(each, {}, 0.1, look_state).valid);
-        EXPECT_FALSE(spring.step(each, {}, 0.1, spring_state).valid);
-        EXPECT_FALSE(spring.teleport(each, {}, spring_state).valid);
+        EXPECT_FALSE(feet.step(each, *Ground::flat(), 0.1, feet_state).accepted);
+        EXPECT_FALSE(hands.step(each, {}, 0.1, hands_state).accepted);
+        EXPECT_FALSE(look.step(each, {}, 0.1, look_state).accepted);
+        EXPECT_FALSE(spring.step(each, {}, 0.1, spring_state).accepted);
+        EXPECT_FALSE(spring.teleport(each, {}, spring_state).accepted);
         EXPECT_EQ(bent.bend(each, points).status, ik::Status::InvalidInput);
         EXPECT_TRUE(bent.points_through(each, 2).empty());
     }

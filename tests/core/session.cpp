@@ -52,7 +52,7 @@ Result reach(Chain& chain, Random& random) {
         case 1:
             return chain.backward(target);
         case 2:
-            return chain.fixed(target, {.iterations = 3}).outcome;
+            return chain.fixed(target, {.iterations = 3}).accepted;
         default:
             return chain.with_index(chain.empty() ? 0 : random.below(chain.size()), target);
     }

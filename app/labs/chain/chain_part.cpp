@@ -98,7 +98,7 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
             require_ok(part.chain
                            .fixed(target, {.iterations = iterations_of(part, ChainMode::Fixed),
                                            .tolerance = part.tolerance})
-                           .outcome);
+                           .accepted);
             break;
         case ChainMode::WithIndex:
             if (!part.chain.empty()) require_ok(part.chain.with_index(part.index, target));

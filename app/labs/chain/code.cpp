@@ -191,7 +191,7 @@ void ChainProgram::pull() {
         case ChainMode::Fixed:
             return say_checked("chain.fixed(target, {.iterations = " +
                                std::to_string(iterations_of(part_, ChainMode::Fixed)) +
-                               ", .tolerance = " + literal(part_.tolerance) + "}).outcome");
+                               ", .tolerance = " + literal(part_.tolerance) + "}).accepted");
         case ChainMode::WithIndex:
             if (part_.chain.empty())
                 return say("static_cast<void>(target);  // an empty chain has none to pull");

@@ -476,8 +476,8 @@ Result trail_joints(Chain& chain, std::span<const JointPull> pulls) {
         const glm::quat turn = turn_of(moved.front() - from, pull.to - at);
         for (glm::vec3& joint : moved) joint = at + turn * (joint - from);
         if (const Result set = between->set_positions(moved); !set) return set;
-        if (const FixedResult pulled = between->fixed(pull.to, between_joints); !pulled.outcome)
-            return pulled.outcome;
+        if (const FixedResult pulled = between->fixed(pull.to, between_joints); !pulled.accepted)
+            return pulled.accepted;
         put(*between, last, true);
         last = pull.joint;
     }

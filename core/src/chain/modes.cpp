@@ -35,9 +35,9 @@ Result Chain::backward(glm::vec3 target) {
 
 FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
     FixedResult result;  // the only return value, so that no message is copied
-    result.outcome = detail::check_point("fixed", "target", target);
-    if (result.outcome) result.outcome = check_fields("fixed", options, "options");
-    if (!result.outcome || empty()) return result;
+    result.accepted = detail::check_point("fixed", "target", target);
+    if (result.accepted) result.accepted = check_fields("fixed", options, "options");
+    if (!result.accepted || empty()) return result;
 
     result.residual = detail::distance(segments_.front().position, target);
     if (size() == 1) return result;  // a single segment is the tail, which stays

@@ -5,6 +5,7 @@
 #include "humanoid/input.hpp"
 #include "humanoid/limb.hpp"
 #include "ik/curve/path.hpp"
+#include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "math/rotation.hpp"
 
@@ -140,14 +141,17 @@ std::vector<glm::vec3> BentChain::points_through(std::span<const rig::Transform>
 
 ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> given,
                                       const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept {
-    constexpr auto refusal = ik::Status::InvalidInput;
-    if (pose.size() != count || !detail::is_sane(pose) || given.empty() || given.size() > max_points ||
-        !std::ranges::all_of(given, tendril::detail::is_point))
-        return {.status = refusal};
+    const auto no = [](const Result& why) { return ik::detail::refusal<ik::CurveReport>(why); };
+    if (const Result bad = detail::check_pose("bend", pose, count); !bad) return no(bad);
+    if (given.empty() || given.size() > max_points)
+        return no(refused("bend", "points", "1 to max_points in number", given.size()));
+    for (std::size_t i = 0; i < given.size(); ++i)
+        if (const Result bad = tendril::detail::check_point("bend", {"points", i}, given[i]); !bad)
+            return no(bad);
     const Placement above = parent(pose);
-    if (!detail::is_moderate(above)) return {.status = refusal};
+    if (!detail::is_moderate(above)) return no(detail::refused_bones("bend"));
     const Placement at = seen_from_points(above);
-    if (!place_nodes(at, pose, placed)) return {.status = refusal};
+    if (!place_nodes(at, pose, placed)) return no(detail::refused_bones("bend"));
 
     double reach = 0.0;
     const glm::dvec3 root = placed[0].position;
@@ -178,7 +182,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
     ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory, upright);
     // A tip on the last control point may be past it by rounding.
     if (report.status == ik::Status::Converged) report.bones_past_end = 0, report.past_end = 0.0f;
-    if (report.status != refusal) pose_nodes(pose, at, swing, options, static_cast<double>(report.factor));
+    if (report.accepted) pose_nodes(pose, at, swing, options, static_cast<double>(report.factor));
     return report;
 }
 
@@ -209,7 +213,7 @@ void BentChain::Plan::pose_nodes(std::span<rig::Transform> pose, Placement at, c
 
 ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                                 const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept {
-    if (!plan_) return {.status = ik::Status::InvalidInput};
+    if (!plan_) return ik::detail::refusal<ik::CurveReport>(tendril::detail::moved_from("bend", "chain"));
     return plan_->bend(pose, points, options, memory);
 }
 

@@ -190,13 +190,7 @@ void Body::find_tips(Work& work, const Skeleton& skeleton) {
 Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
                                  BodyState& state, const BodyOptions& options) {
     if (!work_) return tendril::detail::moved_from("Body::solve", "body");
-    if (const Result bad =
-            tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
-        !bad)
-        return bad;
-    if (const std::size_t invalid = detail::first_invalid(pose); invalid < pose.size())
-        return refused("Body::solve", Argument("pose", invalid), "finite, at most 1e9, with a unit rotation",
-                       "one that is not");
+    if (const Result bad = detail::check_pose("Body::solve", pose, work_->parents.size()); !bad) return bad;
     if (const Result bad = check_targets(targets); !bad) return bad;
     if (const Result bad = check_state(state, work_->links.size()); !bad) return bad;
     if (const Result bad = check_fields("Body::solve", options, "options"); !bad) return bad;

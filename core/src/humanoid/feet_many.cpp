@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/checks.hpp"
 #include "math/tasks.hpp"
 
 namespace tendril::humanoid {
@@ -18,7 +19,8 @@ void step_many(std::span<FeetJob> jobs, const Ground& ground, double dt,
             if (job.feet && job.state)
                 job.report = job.feet->step(job.pose, ground, dt, *job.state, job.options);
             else
-                job.report = {.valid = false};
+                job.report = {.accepted = tendril::detail::refused("step_many", job.feet ? "state" : "feet",
+                                                                   "an object", "null")};
         }
     };
     tendril::detail::run_pieces(options.tasks, threads, pieces, step);

@@ -195,13 +195,14 @@ FeetReport FeetStep::report() const noexcept {
 
 FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, double dt, FeetState& state,
                       const FeetOptions& options) const noexcept {
-    if (!plan_) return {.valid = false};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
     const detail::FeetPlan& plan = *plan_;
-    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options) || !check(state))
-        return {.valid = false};
+    if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
+    if (const Result bad = check(options); !bad) return {.accepted = bad};
+    if (const Result bad = check(state); !bad) return {.accepted = bad};
     FeetState next = state;
     detail::FeetStep step(plan, pose, ground, dt, next, options);
-    if (!step.place()) return {.valid = false};
+    if (!step.place()) return {.accepted = detail::refused_bones("step")};
     step.raise_root();
     step.find_feet();
     step.lower_pelvis();
@@ -225,7 +226,7 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
         valid = valid && detail::is_within(foot.heel) && detail::is_within(foot.toe);
     if (!valid) {
         saved.restore();
-        return {.valid = false};
+        return {.accepted = detail::refused_bones("step")};
     }
     state = next;
     return report;

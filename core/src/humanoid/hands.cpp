@@ -27,11 +27,13 @@ struct Arm {
     glm::dvec3 direction{0.0}, pole{0.0};  // at rest: from shoulder to hand; where the elbow points
 };
 
-bool is_valid(const HandTarget& target) noexcept {
-    if (!rig::detail::check_vector("hands", "position", target.position)) return false;
-    if (!target.rotation) return true;
-    const double size = dot(*target.rotation, *target.rotation);
-    return size > 1e-6 && size < 1e6;
+Result check(const HandTargets& targets, std::size_t i) noexcept {
+    const tendril::detail::Argument at{"targets", i, "position"}, turn{"targets", i, "rotation"};
+    if (const Result bad = rig::detail::check_vector("step", at, targets[i].position); !bad) return bad;
+    if (!targets[i].rotation) return {};
+    const double size = dot(*targets[i].rotation, *targets[i].rotation);
+    if (size > 1e-6 && size < 1e6) return {};
+    return refused("step", turn, "a rotation of length 1e-3 to 1e3", "one that is not");
 }
 
 /// Turns the shoulder towards a target beyond the arm's reach, by at most `most` radians, and updates `at`.
@@ -186,15 +188,18 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
 
 HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targets, double dt,
                         HandsState& state, const HandsOptions& options) const noexcept {
-    if (!plan_) return {.valid = false};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
     const Plan& plan = *plan_;
-    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
+    if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
+    if (const Result bad = check(options); !bad) return {.accepted = bad};
     const Placement root = placement(options.root);
     const Placement head = plan.head.place_in(root, pose);
-    for (std::size_t i = 0; i < 2; ++i)
-        if (!is_valid(targets[i]) || !detail::place(plan.arms[i].limb, root, pose).is_finite())
-            return {.valid = false};
-    if (!detail::is_moderate(head)) return {.valid = false};
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (const Result bad = check(targets, i); !bad) return {.accepted = bad};
+        if (!detail::place(plan.arms[i].limb, root, pose).is_finite())
+            return {.accepted = detail::refused_bones("step")};
+    }
+    if (!detail::is_moderate(head)) return {.accepted = detail::refused_bones("step")};
 
     HandsReport report;
     const TwistNodes::ArmTurns before = plan.twist.turns(pose);

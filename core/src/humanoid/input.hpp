@@ -45,6 +45,21 @@ inline bool is_sane(std::span<const rig::Transform> pose) noexcept {
     return first_invalid(pose) == pose.size();
 }
 
+/// Refuses a pose of another skeleton, or with a transform that is not sane.
+inline Result check_pose(std::string_view operation, std::span<const rig::Transform> pose,
+                         std::size_t nodes) noexcept {
+    if (pose.size() != nodes) return tendril::detail::refused_count(operation, "pose", pose.size(), nodes);
+    const std::size_t invalid = first_invalid(pose);
+    if (invalid == nodes) return {};
+    return tendril::detail::refused(operation, {"pose", invalid}, "finite, at most 1e9, with a unit rotation",
+                                    "one that is not");
+}
+/// For bones that give numbers no solver can use.
+inline Result refused_bones(std::string_view operation) noexcept {
+    return tendril::detail::refused(operation, "pose", "of bones neither too long nor too short",
+                                    "one that is not");
+}
+
 /// Refuses a quaternion that cannot be normalised.
 inline Result check_rotation(std::string_view operation, const tendril::detail::Argument& argument,
                              const glm::dquat& q) noexcept {

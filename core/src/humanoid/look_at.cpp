@@ -129,12 +129,13 @@ Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
 
 LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& options, double dt,
                           LookAtState& state) const noexcept {
-    if (!plan_) return {.valid = false};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
     const Plan& plan = *plan_;
-    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
+    if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
+    if (const Result bad = check(options); !bad) return {.accepted = bad};
     const Placement root = placement(options.root);
     const Placement at = plan.head.place_in(root, pose);
-    if (!detail::is_moderate(at)) return {.valid = false};
+    if (!detail::is_moderate(at)) return {.accepted = detail::refused_bones("step")};
 
     const glm::dvec3 ahead = plan.head.gaze(at), way = minus(options.target, at.position);
     const glm::dvec3 target = direction_of(way, 1e-6).value_or(ahead);

@@ -114,11 +114,14 @@ glm::dvec3 deflected(const glm::dvec3& velocity, const glm::dvec3& inside, const
     const auto out = direction_of(across(minus(free, inside), free), 0.0);
     return out ? minus(left, times(*out, std::min(0.0, dot(left, *out)))) : left;
 }
-bool are_sane(std::span<const PlacedCapsule> colliders) noexcept {
-    return std::ranges::all_of(colliders, [](const PlacedCapsule& each) {
-        return detail::is_within(each.from) && detail::is_within(each.to) && each.radius >= 0.0 &&
-               each.radius <= static_cast<double>(max_magnitude);
-    });
+Result check(std::span<const PlacedCapsule> colliders) noexcept {
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        const PlacedCapsule& each = colliders[i];
+        if (!detail::is_within(each.from) || !detail::is_within(each.to) ||
+            !(each.radius >= 0.0 && each.radius <= static_cast<double>(max_magnitude)))
+            return refused("step", {"colliders", i}, "of numbers up to 1e9", "others");
+    }
+    return {};
 }
 
 }  // namespace
@@ -297,13 +300,15 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
 SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const SpringOptions& options, Time time,
                                     double dt, SpringChainState& state,
                                     std::span<const PlacedCapsule> colliders) noexcept {
-    if (pose.size() != nodes || !detail::is_sane(pose) || !check(options) || !are_sane(colliders))
-        return {.valid = false};
+    if (const Result bad = detail::check_pose("step", pose, nodes); !bad) return {.accepted = bad};
+    if (const Result bad = check(options); !bad) return {.accepted = bad};
+    if (const Result bad = check(colliders); !bad) return {.accepted = bad};
     const glm::dvec3& scale = options.root.scale;
     size = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     Placement base = placement(options.root);
     for (const std::int32_t node : path) base = base * placement(pose[static_cast<std::size_t>(node)]);
-    if (!detail::is_moderate(base) || !place_all(base, pose)) return {.valid = false};
+    if (!detail::is_moderate(base) || !place_all(base, pose))
+        return {.accepted = detail::refused_bones("step")};
     if (state.masses.size() != turning.size()) {
         if (time != Time::Passes) return {};
         state.masses.assign(turning.size(), {});
@@ -320,13 +325,13 @@ SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const Spring
 
 SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                                SpringChainState& state, std::span<const PlacedCapsule> colliders) noexcept {
-    if (!plan_) return {.valid = false};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
     return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state, colliders);
 }
 
 SpringReport SpringChain::teleport(std::span<rig::Transform> pose, const SpringOptions& options,
                                    SpringChainState& state) noexcept {
-    if (!plan_) return {.valid = false};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("teleport", "solver")};
     return plan_->run(pose, options, Time::Jumps, 0.0, state, {});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <iterator>
 #include <utility>
 
@@ -25,6 +26,14 @@ bool are_in_range(const void* object) noexcept {
         return (is_in_range<rows, at>(object) && ...);
     }
     (std::make_index_sequence<std::size(rows)>());
+}
+
+/// Names the list's element in front of check_fields()' message: `solve: effectors[2].weight must be ...`
+template <class Row>
+Result refused_element(const char* operation, const char* list, std::size_t index, const Row& row) noexcept {
+    char place[64];
+    std::snprintf(place, sizeof place, "%s[%zu]", list, index);
+    return check_fields(operation, row, place);
 }
 
 }  // namespace tendril::detail

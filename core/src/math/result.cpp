@@ -44,14 +44,17 @@ const char* Result::reason() const noexcept {
     return end > 0 && message_[end] == ':' && message_[end + 1] == ' ' ? message_ + end + 2 : message_;
 }
 
-Result::Result(const Result& other) noexcept : code_(other.code_) {
-    std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
+Result::Result(const Result& other) noexcept {
+    *this = other;
 }
 
+/// Every report holds a success, so that copies at the price of two bytes.
 Result& Result::operator=(const Result& other) noexcept {
-    if (this == &other) return *this;
     code_ = other.code_;
-    std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
+    if (ok())
+        message_[0] = '\0';
+    else if (this != &other)
+        std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
     return *this;
 }
 

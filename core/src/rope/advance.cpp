@@ -223,8 +223,10 @@ void Workspace::Parts::store_contacts(State& state) {
 
 Advance World::advance(double seconds, Workspace& workspace, const AdvanceOptions& options) {
     Advance done;
-    done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
-    if (done.refused) return done;
+    if (!workspace.parts_) done.accepted = tendril::detail::moved_from("advance", "workspace");
+    if (!(seconds >= 0.0 && seconds <= 1e9))
+        done.accepted = tendril::detail::refused("advance", "seconds", "0 to 1e9", seconds);
+    if (!done.accepted) return done;
     workspace.parts_->torn.clear();
     workspace.parts_->begin_impulses(state_, options.impulses);
     const double substep = state_.settings.substep;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "math/checks.hpp"
+#include "math/ranges.hpp"
 #include "rope/slots.hpp"
 
 namespace tendril::rope::detail {
@@ -57,10 +57,7 @@ Result check_particles(const State& state) {
 /// Checks the numbers of an element by its table.
 template <class Row>
 Result check_row(const Row& row, const char* list, std::size_t index) {
-    if (check_fields(op, row)) return {};
-    char place[64];
-    std::snprintf(place, sizeof place, "%s[%zu]", list, index);
-    return check_fields(op, row, place);
+    return check_fields(op, row) ? Result() : tendril::detail::refused_element(op, list, index, row);
 }
 
 /// Every taken slot belongs to exactly one element of the list.

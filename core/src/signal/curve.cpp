@@ -70,10 +70,10 @@ double evaluate(const Curve& curve, double value) noexcept {
     return detail::bounded(curve.target_min + part * (curve.target_max - curve.target_min));
 }
 
-double step(const Curve& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const Curve& parameters, OutputState& state, double input, double dt, Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(evaluate(parameters, input)); },
-        [&](double) { state.value = evaluate(parameters, input); });
+        [&](double) { state.value = evaluate(parameters, input); }, why);
 }
 
 void set_smooth_tangents(Curve& curve) noexcept {

@@ -35,13 +35,14 @@ Result check_between(const P&) noexcept {
 
 }  // namespace
 
-double step(const Filter& filter, FilterState& state, double input, double dt) noexcept {
+double step(const Filter& filter, FilterState& state, double input, double dt, Result* why) noexcept {
     return std::visit(
         [&]<class P>(const P& parameters) {
             using State = StateOf<P>;
-            if (State* const kept = std::get_if<State>(&state)) return step(parameters, *kept, input, dt);
+            if (State* const kept = std::get_if<State>(&state))
+                return step(parameters, *kept, input, dt, why);
             State fresh;
-            const double output = step(parameters, fresh, input, dt);
+            const double output = step(parameters, fresh, input, dt, why);
             if (fresh.started) state = std::move(fresh);
             return output;
         },

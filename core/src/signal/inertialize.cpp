@@ -29,10 +29,11 @@ void advance(const Inertialize& parameters, InertializeState& state, double inpu
 
 }  // namespace
 
-double step(const Inertialize& parameters, InertializeState& state, double input, double dt) noexcept {
+double step(const Inertialize& parameters, InertializeState& state, double input, double dt,
+            Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return InertializeState{.value = input, .input = input}; },
-        [&](double time) { advance(parameters, state, input, time); });
+        [&](double time) { advance(parameters, state, input, time); }, why);
 }
 
 }  // namespace tendril::signal

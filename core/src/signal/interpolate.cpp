@@ -74,15 +74,16 @@ glm::dquat interp_to_exact(const glm::dquat& current, const glm::dquat& target, 
     return exactly(current, target, dt, speed);
 }
 
-double step(const InterpTo& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const InterpTo& parameters, OutputState& state, double input, double dt, Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(input); },
-        [&](double time) { state.value = by_steps(state.value, input, time, parameters.speed); });
+        [&](double time) { state.value = by_steps(state.value, input, time, parameters.speed); }, why);
 }
-double step(const InterpToExact& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const InterpToExact& parameters, OutputState& state, double input, double dt,
+            Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(input); },
-        [&](double time) { state.value = exactly(state.value, input, time, parameters.speed); });
+        [&](double time) { state.value = exactly(state.value, input, time, parameters.speed); }, why);
 }
 
 }  // namespace tendril::signal

@@ -81,14 +81,12 @@ std::span<const Field> fields<InterpTo>() noexcept {
         number<&InterpTo::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<InterpToExact>() noexcept {
     static constexpr Field rows[] = {
         number<&InterpToExact::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<ScaleBiasClamp>() noexcept {
     static constexpr Field rows[] = {field<&ScaleBiasClamp::map_range>("map_range"),
@@ -106,7 +104,6 @@ std::span<const Field> fields<ScaleBiasClamp>() noexcept {
                                          "speed_decreasing", "1/s", speeds, usual_speeds, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<Spring<>>() noexcept {
     static constexpr Field rows[] = {
@@ -116,14 +113,12 @@ std::span<const Field> fields<Spring<>>() noexcept {
         number<&Spring<>::target_velocity_amount>("target_velocity_amount", "", {0.0, 1.0}, {0.0, 1.0})};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<ExponentialDecay>() noexcept {
     static constexpr Field rows[] = {
         number<&ExponentialDecay::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<RateLimit>() noexcept {
     static constexpr Field rows[] = {
@@ -131,7 +126,6 @@ std::span<const Field> fields<RateLimit>() noexcept {
         number<&RateLimit::fall>("fall", "1/s", amount, {0.05, 50.0}, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<SmoothDamp>() noexcept {
     static constexpr Field rows[] = {
@@ -139,7 +133,6 @@ std::span<const Field> fields<SmoothDamp>() noexcept {
         number<&SmoothDamp::max_speed>("max_speed", "1/s", amount, {0.1, 1e6}, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<SpringSemiImplicit>() noexcept {
     static constexpr Field rows[] = {
@@ -147,7 +140,6 @@ std::span<const Field> fields<SpringSemiImplicit>() noexcept {
         number<&SpringSemiImplicit::critical_damping>("critical_damping", "", dampings, {0.0, 3.0})};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<OneEuro>() noexcept {
     static constexpr Field rows[] = {
@@ -157,27 +149,23 @@ std::span<const Field> fields<OneEuro>() noexcept {
         number<&OneEuro::reset_jump>("reset_jump", "", amount, {0.0, 2.0})};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<MovingAverage>() noexcept {
     static constexpr Field rows[] = {
         number<&MovingAverage::window>("window", "s", {0.0, 3600.0}, usual_seconds, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<DeadZone>() noexcept {
     static constexpr Field rows[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<Hysteresis>() noexcept {
     static constexpr Field rows[] = {number<&Hysteresis::low>("low", "", any, {-2.0, 2.0}),
                                      number<&Hysteresis::high>("high", "", any, {-2.0, 2.0})};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<Inertialize>() noexcept {
     static constexpr Field rows[] = {
@@ -185,14 +173,12 @@ std::span<const Field> fields<Inertialize>() noexcept {
         number<&Inertialize::threshold>("threshold", "", amount, {0.01, 2.0}, Logarithmic)};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<OutputState>() noexcept {
     static constexpr Field rows[] = {field<&OutputState::value>("value", outputs).needed(),
                                      field<&OutputState::started>("started").needed()};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<MotionState>() noexcept {
     static constexpr Field rows[] = {field<&MotionState::started>("started").needed(),
@@ -200,7 +186,6 @@ std::span<const Field> fields<MotionState>() noexcept {
                                      field<&MotionState::velocity>("velocity", outputs, "1/s").needed()};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<MovingAverageState>() noexcept {
     using State = signal::MovingAverageState;
@@ -213,7 +198,6 @@ std::span<const Field> fields<MovingAverageState>() noexcept {
                                      field<&State::new_area>("new_area", outputs, "s").needed()};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<InertializeState>() noexcept {
     using State = signal::InertializeState;
@@ -227,7 +211,6 @@ std::span<const Field> fields<InertializeState>() noexcept {
         field<&State::offset_velocity>("offset_velocity", outputs, "1/s").needed()};
     return rows;
 }
-
 template <>
 std::span<const Field> fields<CurveKey>() noexcept {
     static constexpr Field rows[] = {

@@ -61,7 +61,8 @@ void add_sample(MovingAverageState& state, double window, double dt, double inpu
 
 }  // namespace
 
-double step(const MovingAverage& parameters, MovingAverageState& state, double input, double dt) noexcept {
+double step(const MovingAverage& parameters, MovingAverageState& state, double input, double dt,
+            Result* why) noexcept {
     return detail::stepped(
         state, input, dt,
         [&](double time) {
@@ -69,7 +70,7 @@ double step(const MovingAverage& parameters, MovingAverageState& state, double i
             add_sample(first, parameters.window, time, input);
             return first;
         },
-        [&](double time) { add_sample(state, parameters.window, time, input); });
+        [&](double time) { add_sample(state, parameters.window, time, input); }, why);
 }
 
 }  // namespace tendril::signal

@@ -4,10 +4,11 @@
 
 namespace tendril::signal {
 
-double step(std::span<const Filter> filters, std::span<FilterState> states, double input,
-            double dt) noexcept {
+double step(std::span<const Filter> filters, std::span<FilterState> states, double input, double dt,
+            Result* why) noexcept {
+    if (why != nullptr) *why = {};
     for (std::size_t i = 0; i < filters.size() && i < states.size(); ++i)
-        input = step(filters[i], states[i], input, dt);
+        input = step(filters[i], states[i], input, dt, i == 0 ? why : nullptr);
     return input;
 }
 

@@ -28,7 +28,8 @@ double eased(double from, double to, double speed, double dt) noexcept {
 
 }  // namespace
 
-double step(const ScaleBiasClamp& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const ScaleBiasClamp& parameters, OutputState& state, double input, double dt,
+            Result* why) noexcept {
     const auto wanted = [&] { return without_memory(parameters, input); };
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(wanted()); },
@@ -37,7 +38,8 @@ double step(const ScaleBiasClamp& parameters, OutputState& state, double input, 
             const double speed =
                 to >= state.value ? parameters.speed_increasing : parameters.speed_decreasing;
             state.value = parameters.interp ? eased(state.value, to, speed, time) : to;
-        });
+        },
+        why);
 }
 
 }  // namespace tendril::signal

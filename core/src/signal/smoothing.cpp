@@ -12,16 +12,18 @@ MotionState at_rest(double value) noexcept {
 
 }  // namespace
 
-double step(const ExponentialDecay& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const ExponentialDecay& parameters, OutputState& state, double input, double dt,
+            Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(input); },
         [&](double time) {
             const double halves = time / std::max(parameters.halflife, min_dt);
             state.value = input + (state.value - input) * math::decay(math::ln2 * halves);
-        });
+        },
+        why);
 }
 
-double step(const RateLimit& parameters, OutputState& state, double input, double dt) noexcept {
+double step(const RateLimit& parameters, OutputState& state, double input, double dt, Result* why) noexcept {
     return detail::stepped(
         state, input, dt, [&](double) { return detail::output(input); },
         [&](double time) {
@@ -32,10 +34,11 @@ double step(const RateLimit& parameters, OutputState& state, double input, doubl
             } else {
                 state.value += change > 0.0 ? limit : -limit;
             }
-        });
+        },
+        why);
 }
 
-double step(const SmoothDamp& parameters, MotionState& state, double input, double dt) noexcept {
+double step(const SmoothDamp& parameters, MotionState& state, double input, double dt, Result* why) noexcept {
     const auto advance = [&](double time) {
         const double smooth_time = std::max(parameters.smooth_time, 1e-4), w = 2.0 / smooth_time;
         const double x = w * time, left = 1.0 / (1.0 + x + 0.48 * x * x + 0.235 * x * x * x);
@@ -49,10 +52,11 @@ double step(const SmoothDamp& parameters, MotionState& state, double input, doub
         if (was_under == is_over) state = {.value = input, .velocity = 0.0, .started = true};
     };
     return detail::stepped(
-        state, input, dt, [&](double) { return at_rest(input); }, advance);
+        state, input, dt, [&](double) { return at_rest(input); }, advance, why);
 }
 
-double step(const SpringSemiImplicit& parameters, MotionState& state, double input, double dt) noexcept {
+double step(const SpringSemiImplicit& parameters, MotionState& state, double input, double dt,
+            Result* why) noexcept {
     const auto advance = [&](double time) {
         const double w = 2.0 * math::pi * parameters.strength;
         const double force =
@@ -61,10 +65,10 @@ double step(const SpringSemiImplicit& parameters, MotionState& state, double inp
         state.value += state.velocity * time;
     };
     return detail::stepped(
-        state, input, dt, [&](double) { return at_rest(input); }, advance);
+        state, input, dt, [&](double) { return at_rest(input); }, advance, why);
 }
 
-double step(const OneEuro& parameters, MotionState& state, double input, double dt) noexcept {
+double step(const OneEuro& parameters, MotionState& state, double input, double dt, Result* why) noexcept {
     const auto advance = [&](double time) {
         const auto alpha = [time](double cutoff) {
             const double ratio = 2.0 * math::pi * cutoff * time;
@@ -81,7 +85,7 @@ double step(const OneEuro& parameters, MotionState& state, double input, double 
         state.value += alpha(cutoff) * (input - state.value);
     };
     return detail::stepped(
-        state, input, dt, [&](double) { return at_rest(input); }, advance);
+        state, input, dt, [&](double) { return at_rest(input); }, advance, why);
 }
 
 }  // namespace tendril::signal

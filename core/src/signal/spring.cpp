@@ -24,6 +24,14 @@ bool in_range(const Spring<T>& spring) noexcept {
            spring.target_velocity_amount >= 0.0 && spring.target_velocity_amount <= 1.0;
 }
 
+template <class T>
+Result check(const Spring<T>& spring) noexcept {
+    const Spring<> numbers{spring.strength, spring.critical_damping, 0.0, spring.target_velocity_amount};
+    if (const Result bad = check_fields("step", numbers); !bad || in_range(spring)) return bad;
+    return tendril::detail::refused("step", "force", "finite and at most 1e9 in magnitude",
+                                    "one that is not");
+}
+
 /// The target shifted by the force.
 template <class T>
 auto shifted(const Spring<T>& spring, const T& target) noexcept {
@@ -36,9 +44,10 @@ auto shifted(const Spring<T>& spring, const T& target) noexcept {
 }  // namespace
 
 template <class T>
-T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target,
-       double dt) noexcept {
+T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target, double dt,
+       Result* why) noexcept {
     using namespace detail;
+    if (why != nullptr && (*why = reason_of(target, dt))) *why = check(spring);
     if (!is_input(target) || !in_range(spring)) return state.value;
     if (!state.started) {
         const T first = narrow<T>(shifted(spring, target));
@@ -65,14 +74,16 @@ T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_
     return state.value;
 }
 
-template double step(const Spring<double>&, SpringState<double>&, const double&, double) noexcept;
-template float step(const Spring<float>&, SpringState<float>&, const float&, double) noexcept;
-template glm::dvec3 step(const Spring<glm::dvec3>&, SpringState<glm::dvec3>&, const glm::dvec3&,
-                         double) noexcept;
-template glm::vec3 step(const Spring<glm::vec3>&, SpringState<glm::vec3>&, const glm::vec3&, double) noexcept;
-template glm::dquat step(const Spring<glm::dquat>&, SpringState<glm::dquat>&, const glm::dquat&,
-                         double) noexcept;
-template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&, double) noexcept;
+template double step(const Spring<double>&, SpringState<double>&, const double&, double, Result*) noexcept;
+template float step(const Spring<float>&, SpringState<float>&, const float&, double, Result*) noexcept;
+template glm::dvec3 step(const Spring<glm::dvec3>&, SpringState<glm::dvec3>&, const glm::dvec3&, double,
+                         Result*) noexcept;
+template glm::vec3 step(const Spring<glm::vec3>&, SpringState<glm::vec3>&, const glm::vec3&, double,
+                        Result*) noexcept;
+template glm::dquat step(const Spring<glm::dquat>&, SpringState<glm::dquat>&, const glm::dquat&, double,
+                         Result*) noexcept;
+template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&, double,
+                        Result*) noexcept;
 
 SpringFeel feel_of(double strength, double critical_damping) noexcept {
     constexpr double never = std::numeric_limits<double>::infinity();

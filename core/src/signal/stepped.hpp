@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <type_traits>
 
+#include "math/checks.hpp"
 #include "signal/space.hpp"
 #include "tendril/signal/input.hpp"
 
@@ -12,10 +15,25 @@ static inline double bounded_dt(double dt) noexcept {
     return std::clamp(dt, min_dt, max_dt);
 }
 
+/// Why a step changes nothing, for callers that ask. Time that stands still is no mistake.
+template <class T>
+Result reason_of(const T& input, double dt) noexcept {
+    using tendril::detail::refused;
+    if (!is_input(input)) {
+        constexpr const char* range = "finite and at most 1e9 in magnitude";
+        if constexpr (std::is_floating_point_v<T>) return refused("step", "input", range, input);
+        return refused("step", "input", range, "one that is not");
+    }
+    const bool passes = dt >= 0.0 && dt <= std::numeric_limits<double>::max();
+    return passes ? Result() : refused("step", "dt", "finite and not negative", dt);
+}
+
 /// One step of a filter. `start(dt)` returns the state after a first step; `advance(dt)` changes `state` in
 /// any later one. Both get a dt within bounds, and are not called for a refused input.
 template <class State, class Start, class Advance>
-double stepped(State& state, double input, double dt, const Start& start, const Advance& advance) noexcept {
+double stepped(State& state, double input, double dt, const Start& start, const Advance& advance,
+               Result* why) noexcept {
+    if (why != nullptr) *why = reason_of(input, dt);
     if (!is_input(input)) return state.value;
     const bool advances = is_step(dt);
     if (!state.started) {

@@ -9,7 +9,7 @@ int main() {
     for (int i = 0; i < 3; ++i) fine = chain.add(1.0f).ok() && fine;
     fine = fine && chain.set_length(7, 1.0f).code() == tendril::ErrorCode::OutOfRange;
     fine = fine && chain.forward({1, 2, 3}).ok() && chain.backward({1, 2, 1}).ok();
-    fine = fine && chain.fixed({1, 2, 3}, {.iterations = 8}).outcome.ok();
+    fine = fine && chain.fixed({1, 2, 3}, {.iterations = 8}).accepted.ok();
     if (!fine) return 1;
     const glm::vec3 head = chain.position(0), tail = chain.position(2);
     std::printf("tendril %s: %zu segments, reach %g, head at %.0f %.0f %.0f, tail at %.0f %.0f %.0f\n",

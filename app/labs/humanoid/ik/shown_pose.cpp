@@ -30,7 +30,7 @@ void stand(const HumanoidPart& part, Solvers& solvers, ShownPose& shown) {
     FeetHistory::Before before = solvers.feet_history().before(part, solvers);
     const humanoid::FeetReport report =
         feet->step(shown.local, solvers.ground(part), before.dt, before.state, feet_options(part, solvers));
-    if (!report.valid) return;
+    if (!report.accepted) return;
     shown.feet = report;
     shown.feet_state = before.state;
     shown.deepest = FeetHistory::deepest_of(report);
@@ -68,7 +68,7 @@ void look(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state,
     }
     const humanoid::LookAtReport report =
         look_at->step(shown.local, look_options(part, shown.body.has_value()), dt, state.look);
-    if (report.valid) shown.look = report;
+    if (report.accepted) shown.look = report;
 }
 
 std::vector<rig::Transform> clip_pose(const HumanoidPart& part, bool unfixed = false) {
@@ -90,7 +90,7 @@ void reach_by_hand(const HumanoidPart& part, Solvers& solvers, double dt, IkStat
     for (std::size_t hand = 0; hand < 2; ++hand) shown.hand_goes[hand] = part.ik.hand_target(hand) != nullptr;
     const humanoid::HandsReport report =
         hands->step(shown.local, hand_targets(part), dt, state.hands, part.ik.hand_ik.options);
-    if (report.valid) shown.hands = report;
+    if (report.accepted) shown.hands = report;
 }
 
 }  // namespace

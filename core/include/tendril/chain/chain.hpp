@@ -56,7 +56,7 @@ struct FixedOptions {
 struct FixedResult {
     int iterations = 0;     ///< iterations used; 0 for a chain of fewer than two segments
     float residual = 0.0f;  ///< metres from the head to the target; 0 for an empty chain
-    Result outcome{};       ///< success, or why nothing moved
+    Result accepted{};      ///< success, or why nothing moved
 };
 
 class Chain {

@@ -137,13 +137,12 @@ struct FootReport {
 };
 
 struct FeetReport {
-    /// False: a pose that is not finite or has the wrong number of transforms, a state that check() refuses,
-    /// options out of range, or bones too long or too short for a finite result. Pose and state are
-    /// unchanged.
-    bool valid = true;
     std::array<FootReport, 2> feet{};  ///< left, right
     double base = 0.0;                 ///< metres that the root is raised
     double drop = 0.0;                 ///< metres that the pelvis is lowered from there
+    /// Why nothing has changed: a pose that is not finite or has the wrong number of transforms, a state that
+    /// check() refuses, options out of range, or bones too long or too short for a finite result.
+    Result accepted{};
 };
 
 /// A character's legs, precomputed. Immutable: many characters of one kind, and many threads, can share one.

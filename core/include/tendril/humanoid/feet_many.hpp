@@ -20,7 +20,7 @@ struct FeetJob {
     std::span<rig::Transform> pose{};  ///< not shared with another job
     FeetState* state = nullptr;        ///< not shared with another job
     FeetOptions options{};
-    FeetReport report{};  ///< the result; invalid if `feet` or `state` is null
+    FeetReport report{};  ///< the result; refused if `feet` or `state` is null
 };
 
 struct FeetManyOptions {

@@ -65,9 +65,8 @@ struct HandReport {
     glm::dvec3 position{0.0};  ///< position of the hand
 };
 struct HandsReport {
-    /// False: a pose, a target or options that are not finite or out of range; nothing has changed.
-    bool valid = true;
     std::array<HandReport, 2> hands{};  ///< left, right
+    Result accepted{};                  ///< why nothing has changed: a pose, a target or options out of range
 };
 
 /// 0 until `begin`, 1 from `full` to `until`, 0 from `end` on, smooth between; seconds, in ascending order.

@@ -50,11 +50,10 @@ struct LookAtState {
 };
 
 struct LookAtReport {
-    /// False: a pose or options that are not finite or out of range; nothing has changed.
-    bool valid = true;
     double weight = 0.0;  ///< applied
     bool in_view = false;
     double left = 0.0;  ///< radians between the head's gaze and the target
+    Result accepted{};  ///< why nothing has changed: a pose or options out of range
 };
 
 /// Made once per character, then immutable.

@@ -61,10 +61,9 @@ struct SpringChainState {
 };
 
 struct SpringReport {
-    /// False: a pose, options or colliders that are not finite or out of range; nothing has changed.
-    bool valid = true;
     double angle = 0.0;  ///< maximum angle between a bone and its pose, at weight 1, radians
     double speed = 0.0;  ///< maximum speed of a mass relative to its target, m/s; 0 if no time passes
+    Result accepted{};   ///< why nothing has changed: a pose, options or colliders out of range
 };
 
 /// Made once per character. step() uses internal scratch: do not share an object between threads.

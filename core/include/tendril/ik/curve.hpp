@@ -83,6 +83,7 @@ struct CurveReport {
     /// All control points coincide, so the curve has no direction; the chain lies along its first rest
     /// direction.
     bool collapsed = false;
+    Result accepted{};  ///< why the status is InvalidInput
     bool operator==(const CurveReport&) const = default;
 };
 

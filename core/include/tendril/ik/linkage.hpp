@@ -173,7 +173,7 @@ struct LinkageReport {
     /// The largest closure error, metres: the distance of points that should coincide, or the angle between
     /// frames times the size.
     double closed_to = 0.0;
-    double residual = 0.0;         ///< the largest distance of a point from its target, metres
+    double residual = 0.0;  ///< the largest distance of a point from its target, metres; infinite if refused
     double driver_residual = 0.0;  ///< the largest error of a driver, radians or metres
     int freedom = 0;               ///< degrees of freedom that drivers and active ranges leave
     /// The link of the driver that cannot go further, and the value where it stopped.
@@ -188,7 +188,7 @@ struct LinkageReport {
     /// a jump.
     std::optional<std::size_t> jumped{};
     double jump = 0.0;  ///< distance that point moved, metres
-
+    Result accepted{};  ///< why the status is InvalidInput
     bool operator==(const LinkageReport&) const = default;
 };
 
@@ -249,11 +249,12 @@ class LinkageSolver {
     LinkageReport solve(LinkageState& state, const LinkageGoals& goals = {},
                         const LinkageOptions& options = {}) noexcept;
 
-    /// Switches to another assembly mode: another closed pose with the drivers' joints where they are. False,
-    /// changing nothing, if none is found, or if the drivers leave freedom: a linkage that moves freely has
-    /// no modes. Deterministic. Costs some hundred solves.
-    bool other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
-                    OtherMode which = OtherMode::Next) noexcept;
+    /// Switches to another assembly mode: another closed pose with the drivers' joints where they are.
+    /// NotFound, changing nothing, if there is none, or if the drivers leave freedom: a linkage that moves
+    /// freely has no modes. InvalidArgument for what solve() refuses. Deterministic. Costs some hundred
+    /// solves.
+    Result other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
+                      OtherMode which = OtherMode::Next) noexcept;
 
     /// The degrees of freedom in this pose, without drivers.
     LinkageFreedom freedom(const LinkageState& state) noexcept;
@@ -268,8 +269,8 @@ class LinkageSolver {
 
     // The pose of the last solve, or of place().
 
-    /// Computes the links' poses for a state, such as a saved one. False for a state of another linkage.
-    bool place(const LinkageState& state) noexcept;
+    /// Computes the links' poses for a state, such as a saved one. Refuses a state of another linkage.
+    Result place(const LinkageState& state) noexcept;
     std::span<const LinkPlace> links() const noexcept;
     /// Position of Linkage::points[index], metres; the origin if there is no such point.
     glm::dvec3 point(std::size_t index) const noexcept;

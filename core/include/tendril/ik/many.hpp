@@ -79,7 +79,7 @@ struct ManyReport {
     Status status = Status::Converged;
     bool scalar_fallback = false;  ///< the scalar solver took this chain
     int iterations = 0;
-    float residual = 0.0f;  ///< metres from the tip to the target
+    float residual = 0.0f;  ///< metres from the tip to the target; infinite if InvalidInput
     bool operator==(const ManyReport&) const = default;
 };
 
@@ -87,6 +87,8 @@ struct ManyReport {
 struct ManySummary {
     std::size_t invalid = 0;           ///< chains whose status is InvalidInput
     std::size_t scalar_fallbacks = 0;  ///< chains that the scalar solver took
+    std::size_t first_invalid = 0;     ///< the first chain whose status is InvalidInput, if there is one
+    Result accepted{};                 ///< why it was refused, or all were
     bool operator==(const ManySummary&) const = default;
 };
 

@@ -27,7 +27,7 @@ const char* name(Status status) noexcept;
 struct Report {
     Status status = Status::Converged;
     int iterations = 0;
-    float residual = 0.0f;  ///< metres from the tip to the target
+    float residual = 0.0f;  ///< metres from the tip to the target; infinite if the input was refused
     /// The result, or the start of the iterations, was found in closed form: two bones, or a target out of
     /// reach or too close.
     bool closed_form = false;
@@ -35,6 +35,7 @@ struct Report {
     int least_squares_steps = 0;  ///< iterations within limits that took such a step
     int restarts = 0;             ///< restarts from other poses
     float off_plane = 0.0f;       ///< metres from the target to the plane of the chain, if it has one
+    Result accepted{};            ///< why the status is InvalidInput: the argument and its value
     bool operator==(const Report&) const = default;
 };
 

@@ -57,7 +57,8 @@ class Solver {
 
     /// Moves all joints but the first (bones() + 1 of them, metres) so that the last reaches the target. If
     /// the joints do not match the bones' lengths, they are corrected first. Keep `state` with the joints
-    /// from solve to solve. InvalidInput changes neither.
+    /// from solve to solve. InvalidInput changes neither, and Report::accepted says why: "solve: limits[1]
+    /// must be a valid limit, got the hinge's axis lies along the bone".
     Report solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                  const Options& options = {}, Observer* observer = nullptr) noexcept;
     /// The same for a chain of bones() + 1 segments. A chain keeps its lengths: two bones do not stretch. It
@@ -65,11 +66,6 @@ class Solver {
     /// change and the status is InvalidInput.
     Report solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
-    /// Why solve() would return InvalidInput, with the argument and its value; success if it would not:
-    /// "solve: limits[1] must be a valid limit, got the hinge's axis lies along the bone". For messages: it
-    /// repeats what solve() checks, without allocating.
-    Result check_input(Method method, std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
-                       const Options& options = {}) const noexcept;
 
     /// After a solve that ended Limited: the joint that stops the tip, that is, the one that brings the tip
     /// nearest to the target if it alone is freed. `joints` and `state` as the solve left them. None if

@@ -87,7 +87,8 @@ struct TreeReport {
     /// that far; otherwise Stalled (usually because the effectors conflict) or IterationLimit.
     Status status = Status::Converged;
     int iterations = 0;
-    float residual = 0.0f;  ///< metres, the maximum over effectors with a weight
+    float residual = 0.0f;  ///< metres, the maximum over effectors with a weight; infinite if refused
+    Result accepted{};      ///< why the status is InvalidInput
     bool operator==(const TreeReport&) const = default;
 };
 

@@ -46,7 +46,8 @@ struct TwoBoneResult {
     Status status = Status::Converged;  ///< or Stretched, TooClose, InvalidInput (limb unchanged)
     glm::vec3 mid{0.0f}, tip{0.0f};
     float scale = 1.0f;     ///< scale of both bones
-    float residual = 0.0f;  ///< metres from the tip to the target
+    float residual = 0.0f;  ///< metres from the tip to the target; infinite if the input was refused
+    Result accepted{};      ///< why the status is InvalidInput
 };
 
 TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptions& options = {}) noexcept;

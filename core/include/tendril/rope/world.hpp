@@ -89,8 +89,7 @@ struct Advance {
     /// One per collider that bodies pushed or pulled, in the order of State::colliders; empty unless asked
     /// for. Colliders do not feel them: they move as told. Valid until the workspace's next call.
     std::span<const ColliderImpulse> impulses{};
-    bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
-                           ///< from: nothing was done
+    Result accepted{};  ///< why nothing was done: `seconds` was not 0 to 1e9, or the workspace moved from
 };
 
 struct AdvanceOptions {

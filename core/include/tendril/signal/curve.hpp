@@ -59,7 +59,8 @@ double evaluate_keys(const Curve& curve, double time) noexcept;
 double evaluate(const Curve& curve, double value) noexcept;
 
 /// As a filter: every step, including the first, returns evaluate(input).
-double step(const Curve& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const Curve& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// Sets slopes that make the curve smooth: at each key the slope between its neighbours (Catmull-Rom), but 0
 /// at the ends and at local extremes, so that the curve does not overshoot the keys there.

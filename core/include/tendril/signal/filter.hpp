@@ -38,7 +38,8 @@ using FilterState =
     std::variant<OutputState, SpringState<>, MotionState, MovingAverageState, InertializeState>;
 
 /// See input.hpp. Does not check that parameters are in range: check() does.
-double step(const Filter& filter, FilterState& state, double input, double dt) noexcept;
+double step(const Filter& filter, FilterState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// The first output after a reset: depends on the input alone. 0 for a refused input.
 double immediate(const Filter& filter, double input) noexcept;

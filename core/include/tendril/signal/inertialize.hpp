@@ -33,6 +33,7 @@ struct InertializeState {
 };
 
 /// The first step returns the input.
-double step(const Inertialize& parameters, InertializeState& state, double input, double dt) noexcept;
+double step(const Inertialize& parameters, InertializeState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal

@@ -4,7 +4,8 @@
 // seconds pass with that input and returns the output, which the state keeps as `value`.
 //
 // - A refused input (not finite, or over max_magnitude in magnitude) changes nothing: the step returns the
-//   last output. To know beforehand, call is_input; it is the only criterion.
+//   last output. To know beforehand, call is_input; it is the only criterion. To know why, pass a Result as
+//   the last argument: success, or "step: input must be finite and at most 1e9 in magnitude, got nan".
 // - A dt that is not finite, 0 or negative changes nothing either. Others are clamped to [min_dt, max_dt].
 // - The output of the first step after a reset (a fresh state) depends on the input alone, as each filter
 //   describes. With a refused dt it is the same, but the filter has not started.
@@ -17,6 +18,7 @@
 
 #include "tendril/magnitude.hpp"
 #include "tendril/quat.hpp"
+#include "tendril/result.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::signal {

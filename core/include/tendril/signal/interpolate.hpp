@@ -47,7 +47,9 @@ struct InterpToExact {
     double speed = 10.0;  ///< 1/s, -1e6 to 1e6
     bool operator==(const InterpToExact&) const = default;
 };
-double step(const InterpTo& parameters, OutputState& state, double input, double dt) noexcept;
-double step(const InterpToExact& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const InterpTo& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
+double step(const InterpToExact& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal

@@ -17,7 +17,8 @@ struct Sample {
 };
 
 /// One step of a list of filters, each fed the output of the one before. `states` has one for each.
-double step(std::span<const Filter> filters, std::span<FilterState> states, double input, double dt) noexcept;
+double step(std::span<const Filter> filters, std::span<FilterState> states, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// The output of all filters together at their first step.
 double immediate(std::span<const Filter> filters, double input) noexcept;

@@ -31,6 +31,7 @@ struct ScaleBiasClamp {
 };
 
 /// The first step returns the result of the first three stages, without interpolation.
-double step(const ScaleBiasClamp& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const ScaleBiasClamp& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal

@@ -11,7 +11,8 @@ struct DeadZone {
     double width = 0.1;  ///< 0 to 1e9
     bool operator==(const DeadZone&) const = default;
 };
-double step(const DeadZone& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const DeadZone& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// 1 from `high` up, 0 from `low` down, unchanged in between, and 0 at first: a switch that does not flicker.
 /// `low` must not exceed `high`; if they are equal, that value gives 1.
@@ -20,6 +21,7 @@ struct Hysteresis {
     double high = 0.6;  ///< -1e9 to 1e9
     bool operator==(const Hysteresis&) const = default;
 };
-double step(const Hysteresis& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const Hysteresis& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal

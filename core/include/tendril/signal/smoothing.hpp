@@ -17,7 +17,8 @@ struct ExponentialDecay {
     double halflife = 0.1;  ///< s, 0 (no smoothing) to 1e4
     bool operator==(const ExponentialDecay&) const = default;
 };
-double step(const ExponentialDecay& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const ExponentialDecay& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// Limits the speed, separately up and down.
 struct RateLimit {
@@ -25,7 +26,8 @@ struct RateLimit {
     double fall = 1.0;  ///< 1/s, 0 to 1e9
     bool operator==(const RateLimit&) const = default;
 };
-double step(const RateLimit& parameters, OutputState& state, double input, double dt) noexcept;
+double step(const RateLimit& parameters, OutputState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// A value with a velocity.
 struct MotionState {
@@ -45,7 +47,8 @@ struct SmoothDamp {
     double max_speed = 1e6;    ///< 1/s, 0 to 1e9
     bool operator==(const SmoothDamp&) const = default;
 };
-double step(const SmoothDamp& parameters, MotionState& state, double input, double dt) noexcept;
+double step(const SmoothDamp& parameters, MotionState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// The spring found in most games: velocity first, then position (semi-implicit Euler). Unstable if (w dt)^2
 /// + 4 z w dt is over 4: at 8 Hz and damping 1 under 60.7 frames per second. Its output then oscillates ever
@@ -55,7 +58,8 @@ struct SpringSemiImplicit {
     double critical_damping = 1.0;  ///< 0 to 1e3
     bool operator==(const SpringSemiImplicit&) const = default;
 };
-double step(const SpringSemiImplicit& parameters, MotionState& state, double input, double dt) noexcept;
+double step(const SpringSemiImplicit& parameters, MotionState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// The 1 Euro filter (G. Casiez, N. Roussel, D. Vogel, CHI 2012): a low pass whose cutoff rises with speed,
 /// so that a hand at rest is steady and a hand that moves has little lag. `alpha(c) = 1 / (1 + 1 / (2 pi c
@@ -67,7 +71,8 @@ struct OneEuro {
     double reset_jump = 0.0;         ///< restart if input and output are farther apart, 0 to 1e9; 0: never
     bool operator==(const OneEuro&) const = default;
 };
-double step(const OneEuro& parameters, MotionState& state, double input, double dt) noexcept;
+double step(const OneEuro& parameters, MotionState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 /// The mean of the last `window` seconds, each sample weighted by the dt of its own step, the oldest in part.
 /// Until the window is full, the mean of all samples.
@@ -92,6 +97,7 @@ struct MovingAverageState {
     double new_time = 0.0, new_area = 0.0;  ///< sums of the entries from `split` on
     bool operator==(const MovingAverageState&) const = default;
 };
-double step(const MovingAverage& parameters, MovingAverageState& state, double input, double dt) noexcept;
+double step(const MovingAverage& parameters, MovingAverageState& state, double input, double dt,
+            Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal

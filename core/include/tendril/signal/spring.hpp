@@ -74,19 +74,20 @@ struct SpringState {
 /// Lets `dt` seconds pass and returns the new value. Refusals as in input.hpp. The first step starts at the
 /// target, shifted by the force, at rest.
 template <class T>
-T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target,
-       double dt) noexcept;
+T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target, double dt,
+       Result* why = nullptr) noexcept;
 
-extern template double step(const Spring<double>&, SpringState<double>&, const double&, double) noexcept;
-extern template float step(const Spring<float>&, SpringState<float>&, const float&, double) noexcept;
+extern template double step(const Spring<double>&, SpringState<double>&, const double&, double,
+                            Result*) noexcept;
+extern template float step(const Spring<float>&, SpringState<float>&, const float&, double, Result*) noexcept;
 extern template glm::dvec3 step(const Spring<glm::dvec3>&, SpringState<glm::dvec3>&, const glm::dvec3&,
-                                double) noexcept;
-extern template glm::vec3 step(const Spring<glm::vec3>&, SpringState<glm::vec3>&, const glm::vec3&,
-                               double) noexcept;
+                                double, Result*) noexcept;
+extern template glm::vec3 step(const Spring<glm::vec3>&, SpringState<glm::vec3>&, const glm::vec3&, double,
+                               Result*) noexcept;
 extern template glm::dquat step(const Spring<glm::dquat>&, SpringState<glm::dquat>&, const glm::dquat&,
-                                double) noexcept;
-extern template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&,
-                               double) noexcept;
+                                double, Result*) noexcept;
+extern template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&, double,
+                               Result*) noexcept;
 
 /// Other descriptions of the same spring: an editor may set any of them and show all.
 struct SpringFeel {

@@ -50,7 +50,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
     Problem problem = load_problem(block, lane, scratch);
-    load_limits(scalar, problem.options.limits);
+    static_cast<void>(load_limits(scalar, problem.options.limits));
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
         block.set_point(i + 1, lane, scalar.joints[i + 1]);

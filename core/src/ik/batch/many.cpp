@@ -296,21 +296,26 @@ float Batch::reach(std::size_t chain) const noexcept {
     return parts_->block(chain).reach()[chain % block_lanes];
 }
 
-static ManySummary refused_many(std::span<ManyReport> reports, std::size_t chains) noexcept {
-    std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
-    return {.invalid = chains};
+static ManySummary refused_many(std::span<ManyReport> reports, std::size_t chains,
+                                const Result& why) noexcept {
+    std::fill(reports.begin(), reports.end(), refused_chain);
+    return {.invalid = chains, .accepted = why};
 }
 
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports,
                        const ManyOptions& options) noexcept {
-    if (!batch.parts_) return refused_many(reports, targets.size());
+    if (!batch.parts_)
+        return refused_many(reports, targets.size(), tendril::detail::moved_from("solve_many", "batch"));
     return Batch::Parts::solve(*batch.parts_, targets, nullptr, reports, options);
 }
 
 ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
                        std::span<ManyReport> reports, const ManyOptions& options) noexcept {
-    if (!batch.parts_) return refused_many(reports, targets.size());
-    if (joints.size() != batch.size() * (batch.bones() + 1)) return refused_many(reports, batch.size());
+    if (!batch.parts_)
+        return refused_many(reports, targets.size(), tendril::detail::moved_from("solve_many", "batch"));
+    const std::size_t wanted = batch.size() * (batch.bones() + 1);
+    if (const Result bad = check_count("solve_many", "joints", joints.size(), wanted); !bad)
+        return refused_many(reports, batch.size(), bad);
     return Batch::Parts::solve(*batch.parts_, targets, joints.data(), reports, options);
 }
 
@@ -326,8 +331,15 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     scalar.restarts = options.restarts;
     scalar.plane = options.plane;
     if (parts.limits) scalar.limits = parts.limits->limits;
-    const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
-    if (!fits || unit == nullptr || !check(scalar, parts.bones)) return refused_many(reports, parts.chains);
+    const auto no = [&](const Result& why) { return refused_many(reports, parts.chains, why); };
+    if (const Result bad = check_count("solve_many", "targets", targets.size(), parts.chains); !bad)
+        return no(bad);
+    if (!reports.empty() && reports.size() != parts.chains)
+        return no(tendril::detail::refused_count("solve_many", "reports", reports.size(), parts.chains));
+    if (unit == nullptr)
+        return no(tendril::detail::refused("solve_many", "vector_unit", "one of vector_units()",
+                                           options.vector_unit));
+    if (const Result bad = check(scalar, parts.bones); !bad) return no(bad);
     Work work({parts.blocks.get(), parts.chains, parts.bones, targets, joints, reports, scalar, *unit,
                parts.limits.get(), parts.rotations.get()});
     const std::size_t useful =
@@ -335,7 +347,14 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     const auto count = static_cast<std::uint32_t>(std::clamp<std::size_t>(useful, 1, parts.scratch.size()));
     const auto piece = [&](std::uint32_t index) noexcept { work.run(*parts.scratch[index]); };
     tendril::detail::run_pieces(options.tasks, count, count, piece);
-    return work.summary();
+    ManySummary summary = work.summary();
+    if (summary.invalid == 0) return summary;
+    summary.accepted =
+        check_point("solve_many", {"targets", summary.first_invalid}, targets[summary.first_invalid]);
+    if (summary.accepted)
+        summary.accepted = tendril::detail::refused("solve_many", {"chains", summary.first_invalid},
+                                                    "of joints within 1e9 m of the origin", "others");
+    return summary;
 }
 
 }  // namespace tendril::ik

@@ -83,8 +83,7 @@ void Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     scalar.longest = rows[(in_.bones + 1) * block_lanes];
     const glm::vec3 target = in_.targets[chain];
     if (!are_points(scalar.joints) || !are_points({&target, 1})) {
-        invalid_.fetch_add(1, std::memory_order_relaxed);
-        if (!in_.reports.empty()) in_.reports[chain] = {.status = Status::InvalidInput};
+        report_invalid(chain);
         return;
     }
     scalar.saved.reset();  // results must not depend on the previous chain

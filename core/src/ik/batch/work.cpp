@@ -249,9 +249,17 @@ void Work::fetch_joints(const Tile& tile, std::size_t lane) const noexcept {
     }
 }
 
+void Work::report_invalid(std::size_t chain) noexcept {
+    invalid_.fetch_add(1, std::memory_order_relaxed);
+    std::size_t first = first_invalid_.load();
+    while (chain < first && !first_invalid_.compare_exchange_weak(first, chain)) {
+    }
+    if (!in_.reports.empty()) in_.reports[chain] = refused_chain;
+}
+
 void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexcept {
     const Class found = block.class_of(lane);
-    if (found == Class::Invalid) invalid_.fetch_add(1, std::memory_order_relaxed);
+    if (found == Class::Invalid) return report_invalid(chain);
     if (in_.reports.empty()) return;
     ManyReport& report = in_.reports[chain];
     const float residual = block.at(Row::Residual, lane);
@@ -261,7 +269,6 @@ void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexc
     if (found == Class::Straight) status = Status::Stretched;
     if (found == Class::Folded) status = Status::TooClose;
     report = {status, false, static_cast<int>(block.at(Row::Iterations, lane)), residual};
-    if (found == Class::Invalid) report = {Status::InvalidInput, false, 0, 0.0f};
 }
 
 }  // namespace tendril::ik::detail

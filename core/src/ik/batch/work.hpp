@@ -5,16 +5,22 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 
 #include "ik/batch/block.hpp"
 #include "ik/batch/vector.hpp"
 #include "ik/solve/plane.hpp"
 #include "ik/solve/problem.hpp"
+#include "math/checks.hpp"
 #include "tendril/ik/many.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
+
+/// Of a chain that was refused: no comparison of residuals takes it for a success.
+inline constexpr ManyReport refused_chain{.status = Status::InvalidInput,
+                                          .residual = std::numeric_limits<float>::infinity()};
 
 /// A block for slow chains gathered from other blocks: the first `used` lanes.
 struct Tile {
@@ -84,7 +90,9 @@ class Work {
 
     /// Processes blocks until none are left. Threads may call it concurrently, each with its own scratch.
     void run(Scratch& scratch) noexcept;
-    ManySummary summary() const noexcept { return {invalid_.load(), scalar_fallbacks_.load()}; }
+    ManySummary summary() const noexcept {
+        return {invalid_.load(), scalar_fallbacks_.load(), invalid_ > 0 ? first_invalid_.load() : 0};
+    }
 
   private:
     Block block(std::size_t index, Scratch& scratch) const noexcept {
@@ -114,6 +122,7 @@ class Work {
                            Scratch& scratch) const noexcept;
     void solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
     JointAccess home(std::size_t chain) const noexcept;
+    void report_invalid(std::size_t chain) noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
         return in_.rotations + index * 4 * in_.bones * block_lanes;
@@ -135,7 +144,8 @@ class Work {
     Input in_;
     bool planar_;       ///< in a plane without limits
     PlaneFrame frame_;  ///< frame of that plane, at the origin
-    std::atomic<std::size_t> next_block_{0}, invalid_{0}, scalar_fallbacks_{0};
+    std::atomic<std::size_t> next_block_{0}, invalid_{0}, first_invalid_{tendril::detail::no_index},
+        scalar_fallbacks_{0};
 };
 
 }  // namespace tendril::ik::detail

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ik/curve/path.hpp"
+#include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "math/elementary.hpp"
 #include "math/ranges.hpp"
@@ -11,8 +12,7 @@ namespace tendril::ik {
 namespace detail {
 namespace {
 
-using tendril::detail::is_length;
-using tendril::detail::is_point;
+using namespace tendril::detail;
 
 constexpr std::size_t max_control_points = 4096;
 
@@ -31,23 +31,38 @@ constexpr Field curve_rows[] = {field<&CurveOptions::kind>("kind", curve_kinds),
                                 field<&CurveOptions::weight>("weight"),
                                 list<&CurveOptions::weights>("weights")};
 
-bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::span<const glm::vec3> joints,
-              const State& state, const CurveMemory& memory, const CurveOptions& options) noexcept {
-    const std::size_t bones = chain.lengths.size();
-    const auto unit_quaternion = [](const glm::quat& q) {
-        return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 2e-3f;
-    };
-    return bones > 0 && joints.size() == bones + 1 && state.bones() == bones &&
-           (memory.at.empty() || memory.at.size() == bones + 1) &&
-           (chain.rest_directions.empty() || chain.rest_directions.size() == bones) &&
-           (options.weights.empty() || options.weights.size() == bones) && points.size() >= 2 &&
-           points.size() <= max_control_points && std::ranges::all_of(points, is_point) &&
-           std::ranges::all_of(joints, is_point) && std::ranges::all_of(chain.lengths, is_length) &&
-           std::ranges::all_of(chain.rest_directions,
-                               [](const glm::vec3& each) { return is_point(each) && is_unit(wide(each)); }) &&
-           std::ranges::all_of(state.rotations, unit_quaternion) &&
-           tendril::detail::are_in_range<curve_rows>(&options) &&
-           std::ranges::all_of(options.weights, [](float each) { return each >= 0.0f && each <= 1.0f; });
+Result check_input(std::span<const glm::vec3> points, const CurveChain& chain,
+                   std::span<const glm::vec3> joints, const State& state, const CurveMemory& memory,
+                   const CurveOptions& options) noexcept {
+    constexpr const char* op = "place_along";
+    const std::size_t bones = chain.lengths.size(), rests = chain.rest_directions.size();
+    if (bones == 0) return refused(op, "chain.lengths", "at least one", "none");
+    if (const Result bad = check_count(op, "joints", joints.size(), bones + 1); !bad) return bad;
+    if (const Result bad = check_count(op, "state.rotations", state.bones(), bones); !bad) return bad;
+    if (!memory.at.empty() && memory.at.size() != bones + 1)
+        return refused_count(op, "memory.at", memory.at.size(), bones + 1);
+    if (rests > 0 && rests != bones) return refused_count(op, "chain.rest_directions", rests, bones);
+    if (!options.weights.empty() && options.weights.size() != bones)
+        return refused_count(op, "weights", options.weights.size(), bones);
+    if (points.size() < 2 || points.size() > max_control_points)
+        return refused(op, "points", "2 to 4096 in number", points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_point(points[i])) return refused_point(op, {"points", i}, points[i]);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        if (!is_point(joints[i])) return refused_point(op, {"joints", i}, joints[i]);
+    for (std::size_t i = 0; i < bones; ++i)
+        if (!is_length(chain.lengths[i])) return refused_length(op, {"chain.lengths", i}, chain.lengths[i]);
+    for (std::size_t i = 0; i < rests; ++i)
+        if (!is_point(chain.rest_directions[i]) || !is_unit(wide(chain.rest_directions[i])))
+            return refused(op, {"chain.rest_directions", i}, "a unit vector", "one of another length");
+    for (std::size_t i = 0; i < bones; ++i)
+        if (!detail::is_unit(state.rotations[i]))
+            return refused(op, {"state.rotations", i}, "a unit quaternion", "one of another length");
+    if (!are_in_range<curve_rows>(&options)) return check_fields(op, options);
+    for (std::size_t i = 0; i < options.weights.size(); ++i)
+        if (!(options.weights[i] >= 0.0f && options.weights[i] <= 1.0f))
+            return refused(op, {"weights", i}, "0 to 1", options.weights[i]);
+    return {};
 }
 
 /// How far beyond the end of the path the tip lies with all bones scaled by `factor`, metres; negative if it
@@ -231,7 +246,8 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
                         std::span<glm::vec3> joints, State& state, CurveMemory& memory,
                         const CurveOptions& options) noexcept {
     using namespace detail;
-    if (!is_valid(points, chain, joints, state, memory, options)) return {.status = Status::InvalidInput};
+    if (const Result bad = check_input(points, chain, joints, state, memory, options); !bad)
+        return refusal<CurveReport>(bad);
     const auto rest_direction = [&](std::size_t i) {
         return chain.rest_directions.empty() ? glm::dvec3(1.0, 0.0, 0.0)
                                              : *direction_of(wide(chain.rest_directions[i]), 0.0);

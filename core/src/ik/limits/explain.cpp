@@ -72,7 +72,7 @@ float Explanation::solve_on(std::span<const Limit> limits) noexcept {
     options.limits = limits;
     options.plane = options_.plane;
     options.tip_orientation = options_.tip_orientation;
-    load_limits(scratch_, limits, options_.plane.has_value());
+    static_cast<void>(load_limits(scratch_, limits, options_.plane.has_value()));
     scratch_.saved.limits = {};
     Problem problem{joints_, target_, tolerance(), options, scratch_, scratch_.saved};
     run_limited(Method::Fabrik, problem, Unwatched());

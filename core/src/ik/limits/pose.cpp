@@ -1,6 +1,7 @@
 #include "ik/limits/pose.hpp"
 
 #include "ik/tunables.hpp"
+#include "math/checks.hpp"
 #include "math/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
@@ -55,13 +56,14 @@ static void set_mobilities(LimitedScratch& scratch, std::span<const Limit> limit
         scratch.limits[i].mobility = (1.0f - limits[i].stiffness) / most;
 }
 
-bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar) noexcept {
+Result load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar) noexcept {
     bool changed = false;
     if (planar != scratch.limited.planar) scratch.limited.made = false;  // made for other rest directions
     scratch.limited.planar = planar;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         if (scratch.limited.made && limits[i] == scratch.limited.source[i]) continue;
-        if (fault(limits[i], scratch.rest_directions[i])) return false;
+        if (const char* const wrong = fault(limits[i], scratch.rest_directions[i]))
+            return tendril::detail::refused("solve", {"limits", i}, "a valid limit", wrong);
         scratch.limited.source[i] = limits[i];
         LimitedJoint& joint = scratch.limited.limits[i];
         const bool from_base = planar && joint.from_base;
@@ -71,7 +73,7 @@ bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar)
     }
     if (changed) set_mobilities(scratch.limited, limits);
     scratch.limited.made = !limits.empty() || scratch.limited.made;
-    return true;
+    return {};
 }
 
 template <class Watch>

@@ -91,7 +91,7 @@ static inline void place_bone(const Problem& problem, LimitedPose& pose, std::si
 
 /// Before a solve: prepares the limits that have changed since the last one. One per bone, or none; false
 /// if a limit is invalid for its bone. In a plane a joint keeps LimitedJoint::from_base.
-bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar = false) noexcept;
+Result load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar = false) noexcept;
 
 /// Loads the problem's joints and rotations into scratch.pose. If joints moved and rotations did not,
 /// transports the rotations to the joints, clamps each joint from the root on and places what follows it.

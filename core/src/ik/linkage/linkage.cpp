@@ -157,7 +157,7 @@ std::span<const Field> fields<ik::LinkageReport>() noexcept {
     static constexpr Field rows[] = {field<&LinkageReport::status>("status", status_names),
                                      field<&LinkageReport::iterations>("iterations", {0, 1e6}),
                                      field<&LinkageReport::closed_to>("closed_to", length, "m"),
-                                     field<&LinkageReport::residual>("residual", length, "m"),
+                                     field<&LinkageReport::residual>("residual", {0.0, unbounded}, "m"),
                                      field<&LinkageReport::driver_residual>("driver_residual", length),
                                      field<&LinkageReport::freedom>("freedom", {0, 1e6}),
                                      field<&LinkageReport::stopped>("stopped", {0, max_links}),

@@ -125,8 +125,9 @@ double place_in_order(const LinkageWork& work) noexcept {
 
 }  // namespace
 
-bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers,
-                     OtherMode which) noexcept {
+Result find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers,
+                       OtherMode which) noexcept {
+    const auto none_found = [](const char* why) { return Result(ErrorCode::NotFound, why); };
     // Of the eight modes of Jansen's leg, at 360 angles of its crank: 12 starts per closure miss one at 19,
     // 24 at one.
     constexpr std::size_t starts_per_closure = 48, max_starts = 1000;
@@ -142,7 +143,8 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     load();
     LinkageSolve from(work, goals, options);
     from.hold_drivers();
-    if (from.mode() == 0) return false;
+    if (work.columns == 0 || from.mode() == 0)
+        return none_found("other_mode: the drivers leave freedom, or nothing moves");
     const std::vector<JointPlace>& here = work.nearest = work.joints;
     const double place_here = place_in_order(work);
     double least = none;
@@ -179,7 +181,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     work.active.clear();
     work.open.clear();
     load();
-    return least < none;
+    return least < none ? Result() : none_found("other_mode: no other mode was found");
 }
 
 }  // namespace tendril::ik::detail

@@ -107,8 +107,8 @@ class LinkageSolve {
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 
-/// Finds a closed pose in another assembly mode, with the drivers' joints held.
-bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers,
-                     OtherMode which) noexcept;
+/// Finds a closed pose in another assembly mode, with the drivers' joints held; or NotFound.
+Result find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers,
+                       OtherMode which) noexcept;
 
 }  // namespace tendril::ik::detail

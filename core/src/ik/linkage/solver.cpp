@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ik/linkage/solve.hpp"
+#include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "math/elementary.hpp"
 #include "math/ranges.hpp"
@@ -9,7 +10,7 @@
 
 namespace tendril::ik {
 
-using tendril::detail::held_or_empty;
+using namespace tendril::detail;
 
 struct LinkageSolver::Parts : detail::LinkageWork {
     using detail::LinkageWork::LinkageWork;
@@ -45,40 +46,57 @@ LinkageState LinkageSolver::initial_state() const {
 namespace {
 
 constexpr double state_limit = static_cast<double>(max_magnitude);
+constexpr const char* within_limit = "finite and at most 1e9 in magnitude";
 
-bool fits(const LinkageState& state, const detail::LinkageWork& work) noexcept {
-    return state.joints.size() == work.linkage.links.size() &&
-           std::ranges::all_of(state.joints, [](const JointPlace& each) {
-               const glm::dquat& q = each.turn;
-               return std::abs(each.value) <= state_limit && std::abs(each.last) <= 2.0 * state_limit &&
-                      std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-3;
-           });
+Result check_state(const char* op, const LinkageState& state, const detail::LinkageWork& work) noexcept {
+    if (const Result bad = check_count(op, "state.joints", state.joints.size(), work.linkage.links.size());
+        !bad)
+        return bad;
+    for (std::size_t i = 0; i < state.joints.size(); ++i) {
+        const auto& [value, q, last] = state.joints[i];
+        if (std::abs(value) <= state_limit && std::abs(last) <= 2.0 * state_limit &&
+            std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-3)
+            continue;
+        return refused(op, {"state.joints", i}, "of values up to 1e9 and a unit rotation", value);
+    }
+    return {};
 }
 
-bool mark_drivers(std::span<const LinkDriver> drivers, detail::LinkageWork& work) noexcept {
+/// Whether there is such a link and its joint has one value: not a ball's.
+bool has_value(std::size_t link, const detail::LinkageWork& work) noexcept {
+    return link < work.linkage.links.size() && work.linkage.links[link].joint != LinkJoint::Ball;
+}
+
+Result mark_drivers(const char* op, std::span<const LinkDriver> drivers, detail::LinkageWork& work) noexcept {
     std::ranges::fill(work.driven, std::uint8_t{0});
-    for (const LinkDriver& each : drivers) {
-        if (each.link >= work.linkage.links.size() || !(std::abs(each.value) <= state_limit) ||
-            work.linkage.links[each.link].joint == LinkJoint::Ball)
-            return false;
+    for (std::size_t i = 0; i < drivers.size(); ++i) {
+        const LinkDriver& each = drivers[i];
+        if (!has_value(each.link, work))
+            return refused(op, {"drivers", i, "link"}, "a link with a hinge or slider", each.link);
+        if (!(std::abs(each.value) <= state_limit))
+            return refused(op, {"drivers", i, "value"}, within_limit, each.value);
         std::uint8_t& driven = work.driven[work.column[each.link]];
-        if (driven) return false;
+        if (driven) return refused(op, {"drivers", i, "link"}, "a link of its own", each.link);
         driven = 1;
     }
-    return true;
+    return {};
 }
 
-bool valid_targets(std::span<const LinkTarget> targets, const detail::LinkageWork& work) noexcept {
+Result check_targets(std::span<const LinkTarget> targets, const detail::LinkageWork& work) noexcept {
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const LinkTarget& each = targets[i];
-        if (each.point >= work.linkage.points.size() || !(each.weight > 0.0 && each.weight <= state_limit))
-            return false;
+        if (each.point >= work.linkage.points.size())
+            return refused("solve", {"targets", i, "point"}, "a point of the linkage", each.point);
+        if (!(each.weight > 0.0 && each.weight <= state_limit))
+            return refused("solve", {"targets", i, "weight"}, "over 0 to 1e9", each.weight);
         for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(each.to[axis]) <= state_limit)) return false;
+            if (!(std::abs(each.to[axis]) <= state_limit))
+                return refused("solve", {"targets", i, "to"}, within_limit, each.to[axis]);
         for (std::size_t k = 0; k < i; ++k)
-            if (targets[k].point == each.point) return false;
+            if (targets[k].point == each.point)
+                return refused("solve", {"targets", i, "point"}, "a point of its own", each.point);
     }
-    return true;
+    return {};
 }
 
 constexpr Field solver_rows[] = {
@@ -86,11 +104,12 @@ constexpr Field solver_rows[] = {
     field<&LinkageOptions::tolerance>("tolerance", {0.0, state_limit}, "m").over(),
     index<&LinkageOptions::watched>("watched", "links")};
 
-bool valid_options(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
-    return tendril::detail::are_in_range<solver_rows>(&options) &&
-           std::ranges::all_of(options.watched, [&](std::size_t each) {
-               return each < work.linkage.links.size() && work.linkage.links[each].joint != LinkJoint::Ball;
-           });
+Result check_options(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
+    if (!are_in_range<solver_rows>(&options)) return check_fields("solve", options);
+    for (std::size_t i = 0; i < options.watched.size(); ++i)
+        if (!has_value(options.watched[i], work))
+            return refused("solve", {"watched", i}, "a link with a hinge or slider", options.watched[i]);
+    return {};
 }
 
 /// Loads a state: clamps joints to their ranges and normalises rotations.
@@ -103,23 +122,26 @@ void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
 
 LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goals,
                                    const LinkageOptions& options) noexcept {
-    LinkageReport report;
-    if (!parts_ || !fits(state, *parts_) || !mark_drivers(goals.drivers, *parts_) ||
-        !valid_targets(goals.targets, *parts_) || !valid_options(options, *parts_)) {
-        report.status = LinkageStatus::InvalidInput;
-        return report;
-    }
+    const auto no = [](const Result& why) { return detail::refusal<LinkageReport>(why); };
+    if (!parts_) return no(moved_from("solve", "solver"));
     detail::LinkageWork& work = *parts_;
+    if (const Result bad = check_state("solve", state, work); !bad) return no(bad);
+    if (const Result bad = mark_drivers("solve", goals.drivers, work); !bad) return no(bad);
+    if (const Result bad = check_targets(goals.targets, work); !bad) return no(bad);
+    if (const Result bad = check_options(options, work); !bad) return no(bad);
     take_state(work, state);
-    report = detail::LinkageSolve(work, goals, options).run();
+    LinkageReport report = detail::LinkageSolve(work, goals, options).run();
     state.joints = work.joints;
     return report;
 }
 
-bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
-                               OtherMode which) noexcept {
-    if (!parts_ || !fits(state, *parts_) || !mark_drivers(drivers, *parts_)) return false;
-    return parts_->columns > 0 && detail::find_other_mode(*parts_, state, drivers, which);
+Result LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
+                                 OtherMode which) noexcept {
+    constexpr const char* op = "other_mode";
+    if (!parts_) return moved_from(op, "solver");
+    if (const Result bad = check_state(op, state, *parts_); !bad) return bad;
+    if (const Result bad = mark_drivers(op, drivers, *parts_); !bad) return bad;
+    return detail::find_other_mode(*parts_, state, drivers, which);
 }
 
 LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
@@ -162,11 +184,12 @@ double LinkageSolver::balance(const LinkageState& state, std::size_t link, std::
     return detail::norm_of(work.force);
 }
 
-bool LinkageSolver::place(const LinkageState& state) noexcept {
-    if (!parts_ || !fits(state, *parts_)) return false;
+Result LinkageSolver::place(const LinkageState& state) noexcept {
+    if (!parts_) return moved_from("place", "solver");
+    if (const Result bad = check_state("place", state, *parts_); !bad) return bad;
     take_state(*parts_, state);
     parts_->move_links();
-    return true;
+    return {};
 }
 
 std::span<const LinkPlace> LinkageSolver::links() const noexcept {

@@ -139,17 +139,26 @@ constexpr Field two_bone_rows[] = {
     field<&TwoBoneOptions::max_stretch_scale>("max_stretch_scale", stretch_scales),
     field<&TwoBoneOptions::twist>("twist", {-max_magnitude, max_magnitude}, "rad")};
 
-bool are_valid(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
-    using tendril::detail::is_point;
-    return is_point(limb.root) && is_point(limb.mid) && is_point(limb.tip) && is_point(target) &&
-           within(limb.upper, 0.0f, max_magnitude) && within(limb.lower, 0.0f, max_magnitude) &&
-           tendril::detail::are_in_range<two_bone_rows>(&options);
+Result check_limb(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
+    using namespace tendril::detail;
+    constexpr const char* op = "two_bone";
+    if (const Result bad = check_point(op, "limb.root", limb.root); !bad) return bad;
+    if (const Result bad = check_point(op, "limb.mid", limb.mid); !bad) return bad;
+    if (const Result bad = check_point(op, "limb.tip", limb.tip); !bad) return bad;
+    if (const Result bad = check_point(op, "target", target); !bad) return bad;
+    if (const Result bad = check_length(op, "limb.upper", limb.upper); !bad) return bad;
+    if (const Result bad = check_length(op, "limb.lower", limb.lower); !bad) return bad;
+    return are_in_range<two_bone_rows>(&options) ? Result() : check_fields(op, options);
 }
 
 }  // namespace
 
 TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptions& options) noexcept {
-    if (!are_valid(limb, target, options)) return {Status::InvalidInput, limb.mid, limb.tip, 1.0f, 0.0f};
+    if (const Result bad = check_limb(limb, target, options); !bad) {
+        auto unmoved = detail::refusal<TwoBoneResult>(bad);
+        unmoved.mid = limb.mid, unmoved.tip = limb.tip;
+        return unmoved;
+    }
     return solve(limb, target, options, std::numeric_limits<double>::infinity());
 }
 
@@ -166,7 +175,7 @@ std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept {
 
 template <class Watch>
 Report two_bone_solve(Problem& problem, Watch watch) noexcept {
-    if (problem.bones() != 2) return {Status::InvalidInput, 0, 0.0f};
+    if (problem.bones() != 2) return refusal<Report>(check_takes(Method::TwoBone, problem.bones()));
     const Options& options = problem.options;
     const std::span<glm::vec3> joints = problem.joints;
     const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};

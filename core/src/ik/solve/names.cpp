@@ -15,8 +15,9 @@ constexpr const char* statuses[] = {"Converged", "Stretched",      "TooClose",  
                                     "Stalled",   "IterationLimit", "InvalidInput"};
 constexpr const char* bounds[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
 
-/// A saved report's: steps; metres, as points are at most 3.5e9 m apart.
-constexpr FieldRange steps{0.0, 1e9}, distances{0.0, 1e10}, angles{-10.0, 10.0};
+/// A saved report's: steps; metres, infinite if it was refused.
+constexpr FieldRange steps{0.0, 1e9}, distances{0.0, std::numeric_limits<double>::infinity()},
+    angles{-10.0, 10.0};
 
 constexpr Field report_rows[] = {field<&Report::status>("status", statuses),
                                  field<&Report::iterations>("iterations", steps),

@@ -109,7 +109,7 @@ PlaneProblem::PlaneProblem(Workspace& scratch, std::span<glm::vec3> joints, Stat
     State& local = problem_.state;
     local.reset();
     if (options_.limits.empty()) return;
-    load_limits(scratch_, options_.limits, true);
+    static_cast<void>(load_limits(scratch_, options_.limits, true));
     LimitedScratch& limited = scratch_.limited;
     for (std::size_t i = 0; i < problem_.bones(); ++i) {
         limited.limits[i].from_base = given_.plane->limits[i].from == AngleFrom::Base;

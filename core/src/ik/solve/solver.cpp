@@ -21,8 +21,6 @@ using namespace tendril::detail;
 
 namespace {
 
-constexpr Report invalid_input{Status::InvalidInput, 0, 0.0f};
-
 Result check_direction(std::size_t index, const glm::vec3& direction) noexcept {
     const Argument argument{"rest_directions", index};
     if (const Result bad = check_point("Solver", argument, direction); !bad) return bad;
@@ -109,24 +107,14 @@ float Solver::reach() const noexcept {
     return parts_ ? parts_->scratch.reach : 0.0f;
 }
 
-Result Solver::check_input(Method method, std::span<const glm::vec3> joints, const State& state,
-                           glm::vec3 target, const Options& options) const noexcept {
-    if (!parts_) return moved_from("solve", "solver");
-    if (const Result bad = check_all_but_limits(bones(), method, joints, state, target, options); !bad)
-        return bad;
-    for (std::size_t i = 0; i < options.limits.size(); ++i)
-        if (const char* const wrong = fault(options.limits[i], parts_->scratch.rest_directions[i]))
-            return refused("solve", {"limits", i}, "a valid limit", wrong);
-    return {};
-}
-
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                      const Options& options, Observer* observer) noexcept {
-    if (!parts_ || !check_all_but_limits(bones(), method, joints, state, target, options))
-        return invalid_input;
+    if (!parts_) return refusal<Report>(moved_from("solve", "solver"));
+    if (const Result bad = check_all_but_limits(bones(), method, joints, state, target, options); !bad)
+        return refusal<Report>(bad);
     if (options.plane && bones() > 0)
         return PlaneProblem(parts_->scratch, joints, state, target, options).solve(method, observer);
-    if (!load_limits(parts_->scratch, options.limits)) return invalid_input;
+    if (const Result bad = load_limits(parts_->scratch, options.limits); !bad) return refusal<Report>(bad);
     Problem problem{joints,  target,          options.tolerance.value_or(1e-3f * reach()),
                     options, parts_->scratch, state};
     int order = 0;
@@ -136,7 +124,9 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, g
 
 Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
-    if (!parts_ || chain.size() != bones() + 1) return invalid_input;
+    if (!parts_) return refusal<Report>(moved_from("solve", "solver"));
+    if (const Result bad = check_count("solve", "chain: its segments", chain.size(), bones() + 1); !bad)
+        return refusal<Report>(bad);
     std::vector<glm::vec3>& joints = parts_->scratch.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
     Options saved = options;
@@ -144,11 +134,11 @@ Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target
     if (check(options, bones())) saved.max_stretch_scale = 1.0f;
     const bool risky = may_leave_range(chain, reach()) && state.bones() == bones();
     if (risky) parts_->scratch.saved = state;
-    const Report report = solve(method, joints, state, target, saved, observer);
-    if (report.status == Status::InvalidInput) return report;
-    if (!chain.set_positions(joints)) {  // a joint is over max_magnitude
+    Report report = solve(method, joints, state, target, saved, observer);
+    if (!report.accepted) return report;
+    if (const Result bad = chain.set_positions(joints); !bad) {  // a joint is over max_magnitude
         if (risky) state = parts_->scratch.saved;
-        return invalid_input;
+        return refusal<Report>(bad);
     }
     return report;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 
 #include "tendril/ik/limit.hpp"
@@ -15,6 +16,17 @@ struct Options;
 }
 
 namespace tendril::ik::detail {
+
+/// Report of a refused solve. Its residual is infinite: no comparison takes that for success.
+template <class Report>
+Report refusal(const Result& why) noexcept {
+    Report report;
+    report.status = decltype(report.status)::InvalidInput;
+    if constexpr (requires { report.residual; })
+        report.residual = std::numeric_limits<decltype(report.residual)>::infinity();
+    report.accepted = why;
+    return report;
+}
 
 /// Whether every coordinate is finite and at most max_magnitude.
 bool are_points(std::span<const glm::vec3> points) noexcept;

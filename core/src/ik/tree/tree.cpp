@@ -13,6 +13,7 @@
 namespace tendril::ik {
 
 using namespace detail;
+using namespace tendril::detail;
 
 struct Tree::Parts {
     TreeScratch scratch;
@@ -21,7 +22,6 @@ struct Tree::Parts {
 namespace {
 
 Result check_joint(std::size_t index, const TreeJoint& joint) noexcept {
-    using namespace tendril::detail;
     const Argument parent{"joints", index, "parent"};
     if (index == 0 && joint.parent != no_joint)
         return refused("Tree", parent, "no_joint, as it is the root", joint.parent);
@@ -42,31 +42,38 @@ constexpr Field tree_rows[] = {field<&TreeOptions::tolerance>("tolerance", {0.0,
                                field<&TreeOptions::every_iteration>("every_iteration"),
                                field<&TreeOptions::plain>("plain")};
 
-/// Whether no two effectors with a weight share a joint.
-bool are_apart(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+/// Refuses two effectors with a weight at one joint.
+Result check_apart(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     std::fill(scratch.effector_at.begin(), scratch.effector_at.end(), no_joint);
     for (std::size_t i = 0; i < effectors.size(); ++i) {
         if (effectors[i].weight == 0.0f) continue;
-        if (scratch.effector_at[effectors[i].joint] != no_joint) return false;
-        scratch.effector_at[effectors[i].joint] = i;
+        std::size_t& at = scratch.effector_at[effectors[i].joint];
+        if (at != no_joint)
+            return refused("solve", {"effectors", i, "joint"}, "a joint of its own", effectors[i].joint);
+        at = i;
     }
-    return true;
+    return {};
 }
 
-bool is_valid(TreeScratch& scratch, std::span<const glm::vec3> joints, std::span<const Effector> effectors,
-              const TreeOptions& options) noexcept {
-    using namespace tendril::detail;
-    if (joints.size() != scratch.joints.size()) return false;
-    if (!are_in_range<tree_rows>(&options)) return false;
-    for (const glm::vec3& joint : joints) {
-        if (!is_point(joint)) return false;
+Result check_input(TreeScratch& scratch, std::span<const glm::vec3> joints,
+                   std::span<const Effector> effectors, const TreeOptions& options) noexcept {
+    const std::size_t count = scratch.joints.size();
+    if (const Result bad = check_count("solve", "joints", joints.size(), count); !bad) return bad;
+    if (!are_in_range<tree_rows>(&options)) return check_fields("solve", options);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        if (!is_point(joints[i])) return refused_point("solve", {"joints", i}, joints[i]);
+    for (std::size_t i = 0; i < effectors.size(); ++i) {
+        const Effector& each = effectors[i];
+        if (each.joint >= count)
+            return refused("solve", {"effectors", i, "joint"}, "a joint of the tree", each.joint);
+        if (!are_in_range<effector_rows>(&each)) return refused_element("solve", "effectors", i, each);
     }
-    for (const Effector& effector : effectors) {
-        if (effector.joint >= joints.size() || !are_in_range<effector_rows>(&effector)) return false;
-    }
-    if (!options.rotations.empty() && options.rotations.size() != joints.size()) return false;
-    if (!std::all_of(options.rotations.begin(), options.rotations.end(), is_unit)) return false;
-    return are_apart(scratch, effectors);
+    if (!options.rotations.empty() && options.rotations.size() != count)
+        return refused_count("solve", "rotations", options.rotations.size(), count);
+    for (std::size_t i = 0; i < options.rotations.size(); ++i)
+        if (!is_unit(options.rotations[i]))
+            return refused("solve", {"rotations", i}, "a unit quaternion", "one of another length");
+    return check_apart(scratch, effectors);
 }
 
 /// Stretched or TooClose if an effector could not reach its target even alone; else `otherwise`.
@@ -99,7 +106,7 @@ double write_residuals(std::span<const glm::vec3> joints, std::span<const Effect
 Tree::Tree(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
 
 Expected<Tree> Tree::make(std::span<const TreeJoint> joints) {
-    if (joints.empty()) return tendril::detail::refused("Tree", "joints", "at least one", "none");
+    if (joints.empty()) return refused("Tree", "joints", "at least one", "none");
     for (std::size_t k = 0; k < joints.size(); ++k) {
         if (const Result bad = check_joint(k, joints[k]); !bad) return bad;
     }
@@ -140,8 +147,9 @@ double Tree::reach() const noexcept {
 
 TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
                        const TreeOptions& options) noexcept {
-    if (!parts_ || !is_valid(parts_->scratch, joints, effectors, options))
-        return {Status::InvalidInput, 0, 0.0f};
+    if (!parts_) return refusal<TreeReport>(moved_from("solve", "tree"));
+    if (const Result bad = check_input(parts_->scratch, joints, effectors, options); !bad)
+        return refusal<TreeReport>(bad);
     TreeScratch& scratch = parts_->scratch;
     const double tolerance =
         options.tolerance ? static_cast<double>(*options.tolerance) : 1e-3 * scratch.reach;
