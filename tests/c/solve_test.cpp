@@ -84,7 +84,7 @@ TEST(CSolve, RefusesInTheLibrarysWordsAndChangesNothing) {
     EXPECT_EQ(arm.solve_c({NAN, 0.0f, 0.0f}, nullptr), TENDRIL_INVALID_ARGUMENT);
     EXPECT_STREQ(
         arm.error.message,
-        arm.solver.check_input(ik::Method::Fabrik, arm.joints, arm.state, {NAN, 0.0f, 0.0f}).message());
+        arm.solver.solve(ik::Method::Fabrik, arm.joints, arm.state, {NAN, 0.0f, 0.0f}).accepted.message());
     tendril_ik_options options = tendril_ik_options_default();
     options.snap_back = 7.0f;
     EXPECT_EQ(arm.solve_c({0.5f, 0.5f, 0.0f}, &options), TENDRIL_INVALID_ARGUMENT);

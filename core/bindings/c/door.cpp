@@ -18,31 +18,24 @@ std::uint32_t size_of(Call& call, const Place& place, const void* given, const K
     return 0;
 }
 
-namespace {
-
-/// Why the solver would refuse its input. The only place that asks.
-Result refusal(const ik::Solver& solver, ik::Method method, std::span<const glm::vec3> joints,
-               const ik::State& state, glm::vec3 target, const ik::Options& options) noexcept {
-    return solver.check_input(method, joints, state, target, options);
-}
-
-}  // namespace
-
 Result solve(ik::Solver& solver, ik::Method method, std::span<glm::vec3> joints, ik::State& state,
              glm::vec3 target, const ik::Options& options, ik::Report& report) noexcept {
     report = solver.solve(method, joints, state, target, options);
-    return report.status == ik::Status::InvalidInput ? refusal(solver, method, joints, state, target, options)
-                                                     : Result();
+    return report.accepted;
 }
 
 Result explain(ik::Solver& solver, std::span<const glm::vec3> joints, const ik::State& state,
-               glm::vec3 target, const ik::Options& options, ik::ActiveLimit& limit, int& found) noexcept {
-    if (const Result bad = refusal(solver, ik::Method::Fabrik, joints, state, target, options); !bad)
-        return bad;
+               glm::vec3 target, const ik::Options& options, ik::ActiveLimit& limit, int& found) {
     const std::optional<ik::ActiveLimit> active = solver.explain(joints, state, target, options);
     found = active ? 1 : 0;
-    if (active) limit = *active;
-    return {};
+    if (active) {
+        limit = *active;
+        return {};
+    }
+    // No limit is to blame, or the input was refused, which a solve would say.
+    std::vector<glm::vec3> moved(joints.begin(), joints.end());
+    ik::State changed = state;
+    return solver.solve(ik::Method::Fabrik, moved, changed, target, options).accepted;
 }
 
 Result rotations(const ik::State& state, std::span<glm::quat> world, std::span<glm::quat> local) noexcept {
@@ -57,18 +50,8 @@ Result rotations(const ik::State& state, std::span<glm::quat> world, std::span<g
 
 Result two_bone(const ik::TwoBone& limb, glm::vec3 target, const ik::TwoBoneOptions& options,
                 ik::TwoBoneResult& result) noexcept {
-    if (const Result bad = check_fields("ik_two_bone", options, "options"); !bad) return bad;
     result = ik::two_bone(limb, target, options);
-    if (result.status != ik::Status::InvalidInput) return {};
-    return {ErrorCode::InvalidArgument, "ik_two_bone: target must be finite and at most 1e9 in magnitude"};
-}
-
-Result check_step(double input, double seconds) noexcept {
-    if (!signal::is_input(input))
-        return {ErrorCode::InvalidArgument, "step: the input must be finite and at most 1e9 in magnitude"};
-    if (!signal::is_step(seconds))
-        return {ErrorCode::InvalidArgument, "step: seconds must be finite and over 0"};
-    return {};
+    return result.accepted;
 }
 
 // ---- ik::State as bytes: a word that says so, the number of bones, numbers, flags.

@@ -13,18 +13,16 @@ namespace tendril::door {
 Result solve(ik::Solver& solver, ik::Method method, std::span<glm::vec3> joints, ik::State& state,
              glm::vec3 target, const ik::Options& options, ik::Report& report) noexcept;
 Result explain(ik::Solver& solver, std::span<const glm::vec3> joints, const ik::State& state,
-               glm::vec3 target, const ik::Options& options, ik::ActiveLimit& limit, int& found) noexcept;
+               glm::vec3 target, const ik::Options& options, ik::ActiveLimit& limit, int& found);
 Result rotations(const ik::State& state, std::span<glm::quat> world, std::span<glm::quat> local) noexcept;
 Result two_bone(const ik::TwoBone& limb, glm::vec3 target, const ik::TwoBoneOptions& options,
                 ik::TwoBoneResult& result) noexcept;
 
-/// Whether a filter takes an input and a time: it would go on without a word.
-Result check_step(double input, double seconds) noexcept;
 template <class Filter, class State>
 Result step(const Filter& filter, State& state, double input, double seconds, double& value) noexcept {
-    if (const Result bad = check_step(input, seconds); !bad) return bad;
-    value = signal::step(filter, state, input, seconds);
-    return {};
+    Result accepted;
+    value = signal::step(filter, state, input, seconds, &accepted);
+    return accepted;
 }
 
 /// A state as the caller keeps it. No allocation, if the state that it is read to had the size before.
