@@ -46,7 +46,5 @@ BallPlaces ball_places(const SignalPart& part);
 /// The colour of a filter's output in every plot.
 glm::vec3 stage_colour(const Palette& palette, const SignalStage& stage);
 glm::vec3 input_colour(const Palette& palette);
-/// The ball's: blue while a response is recorded, else the shown output's.
-glm::vec3 output_colour(const Palette& palette, const SignalPart& part);
 
 }  // namespace tendril::app
