@@ -324,7 +324,7 @@ typedef struct tendril_ik_report {
     uint32_t size;
     tendril_ik_status status;
     int32_t iterations;
-    float residual;               /* m. Metres from the tip to the target */
+    float residual;               /* m. Metres from the tip to the target; infinite if the input was refused */
     /* The result, or the start of the iterations, was found in closed form: two bones, or a target out of reach or
        too close */
     int32_t closed_form;
@@ -380,7 +380,7 @@ typedef struct tendril_ik_two_bone_result {
     tendril_vec3f mid;         /* m */
     tendril_vec3f tip;         /* m */
     float scale;               /* scale of both bones */
-    float residual;            /* m. Metres from the tip to the target */
+    float residual;            /* m. Metres from the tip to the target; infinite if the input was refused */
 } tendril_ik_two_bone_result;
 TENDRIL_DEFAULT(tendril_ik_two_bone_result, TENDRIL_STRUCT_IK_TWO_BONE_RESULT)
 
