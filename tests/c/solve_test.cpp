@@ -173,7 +173,7 @@ TEST(CSignal, StepsGiveTheLibrarysBits) {
     double value = 0.0;
     EXPECT_EQ(tendril_signal_spring_step(&c_spring, &c_state, NAN, 0.1, &value, &error),
               TENDRIL_INVALID_ARGUMENT);
-    EXPECT_EQ(tendril_signal_spring_step(&c_spring, &c_state, 1.0, 0.0, &value, &error),
+    EXPECT_EQ(tendril_signal_spring_step(&c_spring, &c_state, 1.0, -0.1, &value, &error),
               TENDRIL_INVALID_ARGUMENT);
     c_spring.strength = -1.0;
     EXPECT_EQ(tendril_signal_spring_step(&c_spring, &c_state, 1.0, 0.1, &value, &error),

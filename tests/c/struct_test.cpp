@@ -1,4 +1,5 @@
 // Structs of C: their sizes, their defaults, their members by name.
+#include <cmath>
 #include <tendril/fields.hpp>
 #include <tendril/version.hpp>
 
@@ -110,6 +111,7 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
         }
         if (field.choices == nullptr && field.whole && field.high == 1.0)
             continue;  // a flag takes any number
+        if (std::isinf(field.high)) continue;  // a refused solve's residual
         const double beyond[4] = {field.high * 2.0 + 1.0, 0.0, 0.0, field.high + 1.0};
         EXPECT_EQ(tendril_set(kind, object, field.name, beyond, &error), TENDRIL_INVALID_ARGUMENT);
         EXPECT_NE(std::strstr(error.message, field.name), nullptr) << error.message;

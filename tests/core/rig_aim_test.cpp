@@ -383,7 +383,7 @@ TEST(RigCollect, DepthFirstFromTheRootInOrderOfCreation) {
     EXPECT_EQ(collected(false, false), (std::vector{other, a, b}));
     std::vector<ElementId> list;
     EXPECT_TRUE(
-        test::says(collect_children(tree, {}, {}, list).message(), "collect_children root handle empty"));
+        test::says(collect_children(tree, {}, {}, list).message(), "collect_children root empty handle"));
     EXPECT_TRUE(list.empty());
 }
 
