@@ -262,7 +262,7 @@ char closing(char open) {
 
 class PointReader {
   public:
-    PointReader(std::string_view text, std::size_t most) : text_(text), most_(most) {}
+    PointReader(std::string_view text, std::size_t points) : text_(text), most_(points) {}
 
     std::vector<glm::vec3> read() {
         skip_header();

@@ -169,7 +169,8 @@ class Caller {
         for (tendril_vec3f& joint : joints_) joint = some_point();
     }
     void spoil(std::uint32_t& size) {
-        if (random_.chance(25)) size = static_cast<std::uint32_t>(random_.bits());
+        if (random_.chance(25))
+            size = static_cast<std::uint32_t>(random_.chance(2) ? random_.below(size + 8) : random_.bits());
     }
     __attribute__((no_sanitize("enum"))) tendril_struct some_kind() {
         const int number = static_cast<int>(random_.below(18)) - 1;

@@ -48,11 +48,24 @@ TEST(CStruct, LimitsOfAnOlderVersionStandCloser) {
     arm.solve({0.2f, 0.4f, 0.1f}, options, c_options);
 }
 
+TEST(CStruct, AMemberThatTheCallersStructHasInPartIsNotThere) {
+    tendril_error error;
+    tendril_ik_options options = tendril_ik_options_default();
+    const double pole[4] = {1.0, 2.0, 3.0, 0.0}, more[4] = {2.5, 0.0, 0.0, 0.0};
+    options.size = offsetof(tendril_ik_options, pole) + 8;
+    EXPECT_EQ(tendril_set(TENDRIL_STRUCT_IK_OPTIONS, &options, "pole", pole, &error), TENDRIL_NOT_FOUND);
+    EXPECT_TRUE(std::isnan(options.pole.x));
+    EXPECT_EQ(tendril_set(TENDRIL_STRUCT_IK_OPTIONS, &options, "max_iterations", more, &error),
+              TENDRIL_INVALID_ARGUMENT);
+    EXPECT_EQ(options.max_iterations, 100);
+}
+
 TEST(CStruct, OfAnImpossibleSizeIsRefusedByName) {
     TwinArm arm({0.5f, 0.4f, 0.3f});
     tendril_ik_options options = tendril_ik_options_default();
     for (const std::uint32_t size :
-         {0u, 1u, 3u, static_cast<std::uint32_t>(sizeof options) + 1, 1'000'000'000u}) {
+         {0u, 1u, 3u, static_cast<std::uint32_t>(offsetof(tendril_ik_options, plane)) + 4u,
+          static_cast<std::uint32_t>(sizeof options) + 1, 1'000'000'000u}) {
         options.size = size;
         EXPECT_EQ(arm.solve_c({0.3f, 0.6f, 0.0f}, &options), TENDRIL_INVALID_ARGUMENT) << size;
         EXPECT_NE(std::strstr(arm.error.message, "options"), nullptr) << arm.error.message;
@@ -110,7 +123,7 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
                             read[axis] == static_cast<double>(static_cast<float>(given[axis])));
         }
         if (field.choices == nullptr && field.whole && field.high == 1.0)
-            continue;  // a flag takes any number
+            continue;                          // a flag takes any number
         if (std::isinf(field.high)) continue;  // a refused solve's residual
         const double beyond[4] = {field.high * 2.0 + 1.0, 0.0, 0.0, field.high + 1.0};
         EXPECT_EQ(tendril_set(kind, object, field.name, beyond, &error), TENDRIL_INVALID_ARGUMENT);

@@ -265,3 +265,6 @@ void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntim
 ik::LinkageSketch present_sketch(const LinkagePart& part);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageTarget>() noexcept;

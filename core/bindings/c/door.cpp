@@ -9,7 +9,8 @@ std::uint32_t size_of(Call& call, const Place& place, const void* given, const K
     }
     std::uint32_t size;
     std::memcpy(&size, given, sizeof size);
-    if (size >= sizeof size && size <= kind.size) return size;
+    // The size of an older version is a whole number of its alignment: it does not end within a pointer.
+    if (size >= sizeof size && size <= kind.size && size % kind.align == 0) return size;
     if (size == 0)
         call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has size 0; make it by %s_default()", kind.name);
     else
@@ -39,6 +40,7 @@ Result explain(ik::Solver& solver, std::span<const glm::vec3> joints, const ik::
 }
 
 Result rotations(const ik::State& state, std::span<glm::quat> world, std::span<glm::quat> local) noexcept {
+    if (const Result bad = ik::check(state, state.bones()); !bad) return bad;
     if (!world.empty() && world.size() != state.bones())
         return {ErrorCode::InvalidArgument, "ik_state_rotations: world must have one element per bone"};
     if (!local.empty())

@@ -1,6 +1,7 @@
 // The general functions of the C interface: those that take any struct, and the version.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "allocator.hpp"
@@ -21,18 +22,6 @@ const Kind& kind_or_refuse(Call& call, const tendril_struct& which) noexcept {
     const Kind* const kind = kind_of(which);
     if (kind == nullptr) call.refuse(TENDRIL_INVALID_ARGUMENT, {"kind"}, "is not of a struct with members");
     return kind != nullptr ? *kind : none;
-}
-
-/// The member of that name, if the caller's struct has it.
-const Member* find_member(Call& call, const Kind& kind, const void* object, const char* name) noexcept {
-    const std::uint32_t size = size_of(call, {"object"}, object, kind);
-    if (name == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"name"}, "is NULL");
-    if (call.refused()) return nullptr;
-    for (const Member& member : kind.members)
-        if (std::strcmp(kind.table()[member.row].name, name) == 0 && member.offset < size) return &member;
-    call.refuse(TENDRIL_NOT_FOUND, {"name"}, "must be a member of %s that is a number, got %.60s", kind.name,
-                name);
-    return nullptr;
 }
 
 template <class Number>
@@ -75,6 +64,23 @@ void with_numbers(MemberType type, Body&& body) noexcept {
         case MemberType::Quat:
             return body(double{}, 4);
     }
+}
+std::size_t end_of(const Member& member) noexcept {
+    std::size_t end = member.offset;
+    with_numbers(member.type,
+                 [&](auto number, int count) { end += sizeof number * static_cast<unsigned>(count); });
+    return end;
+}
+/// The member of that name, if the caller's struct has all of it.
+const Member* find_member(Call& call, const Kind& kind, const void* object, const char* name) noexcept {
+    const std::uint32_t size = size_of(call, {"object"}, object, kind);
+    if (name == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"name"}, "is NULL");
+    if (call.refused()) return nullptr;
+    for (const Member& member : kind.members)
+        if (std::strcmp(kind.table()[member.row].name, name) == 0 && end_of(member) <= size) return &member;
+    call.refuse(TENDRIL_NOT_FOUND, {"name"}, "must be a member of %s that is a number, got %.60s", kind.name,
+                name);
+    return nullptr;
 }
 /// A member's numbers. One that is unset reads as NaN, a whole one too.
 void get(const Kind& kind, const Member& member, const void* object, double* values) noexcept {
@@ -172,17 +178,11 @@ tendril_code tendril_field_at(tendril_struct kind, size_t index, tendril_field* 
                         index);
         if (call.refused()) return;
         const Field& row = of.table()[of.members[index].row];
-        *out = {sizeof *out,
-                row.size(),
-                row.name,
-                row.unit,
-                row.choices.empty() ? nullptr : row.choices.data(),
-                row.choices.size(),
-                row.range.low,
-                row.range.high,
-                {},
-                row.over_low,
-                row.whole(),
+        *out = {row.size(),         row.name,
+                row.unit,           row.choices.empty() ? nullptr : row.choices.data(),
+                row.choices.size(), row.range.low,
+                row.range.high,     {},
+                row.over_low,       row.whole(),
                 row.optional};
         alignas(8) std::byte fresh[most_bytes];
         of.fresh(fresh);
@@ -212,6 +212,10 @@ tendril_code tendril_set(tendril_struct kind, void* object, const char* name, co
         const Field& row = of.table()[member->row];
         std::array<double, 4> numbers{};
         std::copy_n(values, row.size(), numbers.begin());
+        const bool whole = row.whole() || row.type == FieldType::Flag || row.type == FieldType::Choice;
+        const bool unset = row.optional && numbers[0] != numbers[0];
+        if (whole && !unset && std::floor(numbers[0]) != numbers[0])
+            call.refuse(TENDRIL_INVALID_ARGUMENT, {row.name}, "must be a whole number, got %g", numbers[0]);
         call.refuse(of.fits(row, numbers));
         if (call.refused()) return;
         if (row.whole() && numbers[0] != numbers[0]) numbers[0] = -1.0;

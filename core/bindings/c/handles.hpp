@@ -38,7 +38,7 @@ class Slots {
     /// The object, for this call alone, until give_back(). Null and a refusal where there is none, or another
     /// thread has it.
     Object* take(Call& call, const Place& place, std::uint32_t index, std::uint32_t generation) noexcept {
-        const bool odd = generation % 2 == 1;
+        const bool odd = generation % 2 == 1 && generation < 1u << 31;
         std::uint32_t word = generation << 1;
         if (index < most_objects && odd &&
             slots_[index].word.compare_exchange_strong(word, word | busy, std::memory_order_acquire))

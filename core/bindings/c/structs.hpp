@@ -100,7 +100,7 @@ struct Member {
 /// A C struct as a value: its size, members and table.
 struct Kind {
     const char* name;  ///< "tendril_ik_options"
-    std::uint32_t size;
+    std::uint32_t size, align;
     bool plain;  ///< has no pointers, so it can be saved
     std::span<const Field> (*table)() noexcept;
     std::span<const Member> members;
@@ -142,6 +142,8 @@ std::span<const Cpp> read_list(Call& call, const Place& place, const C* given, s
     for (std::size_t i = 0; i < count && !call.refused(); ++i) {
         const auto* const at =
             reinterpret_cast<const C*>(reinterpret_cast<const std::byte*>(given) + i * stride);
+        if (size_of(call, {"", &place, i}, at, Of<C>::kind) != stride)
+            call.refuse(TENDRIL_INVALID_ARGUMENT, {"", &place, i}, "has another size than the first");
         read_struct(call, {"", &place, i}, at, memory.emplace_back(), scratch);
     }
     return memory;
@@ -153,7 +155,7 @@ void give(const typename Of<C>::Cpp& value, C* given) noexcept {
     C full;
     Of<C>::write(value, full);
     std::memcpy(&full.size, given, sizeof full.size);
-    std::memcpy(static_cast<void*>(given), &full, full.size);
+    std::memcpy(static_cast<void*>(given), &full, std::min<std::size_t>(full.size, sizeof full));
 }
 /// A struct for the library to fill. The caller's is written by give() alone.
 template <class C>
@@ -199,6 +201,7 @@ constexpr Kind kind_of_struct(const char* name, bool plain, std::span<const Memb
     static_assert(sizeof(C) <= most_bytes && alignof(C) <= 8);
     return {name,
             sizeof(C),
+            alignof(C),
             plain,
             fields<Cpp>,
             members,

@@ -27,18 +27,21 @@
  *
  *     cc arm.c $(pkg-config --cflags --libs tendril-c)
  *
+ * If the program does not find libtendril.so when it starts, run ldconfig, or link with -Wl,-rpath and its folder.
+ *
  * Units       Metres, seconds, radians. Right-handed, Y up. A chain at rest points along +X unless told. Rotations are
  *             unit quaternions x, y, z, w.
  * Precision   Chains are floats, exact within 1 km of the origin. Filters are doubles.
  * Errors      Functions return a tendril_code, 0 for success. Where one fails, nothing has changed, and `error` (may be
  *             NULL) names the argument and its value: "solve: target.x must be finite and at most 1e9 in magnitude, got
- *             nan". Those that return a number return 0.
+ *             nan". It is written only on failure. Functions that return a number return 0, also while another thread
+ *             uses the object.
  * Objects     tendril_ik_solver and its like are handles: copy them freely, destroy each object once. A destroyed or
  *             zeroed handle is refused with TENDRIL_STALE_HANDLE. An object is used by one thread at a time; a second one
  *             gets TENDRIL_BUSY. Different objects need no lock.
- * Structs     Make each by its _default() function; `size`, its first member, tells the library which version you
- *             compiled with. Options may be NULL: the defaults. A number that may be unset is unset as TENDRIL_UNSET,
- *             which is NaN; of a point, x; a whole number, as -1.
+ * Structs     Make each by its _default() function (TENDRIL_DEFAULT below defines it); {0} is refused. `size`, its first
+ *             member, tells the library which version you compiled with. Options may be NULL: the defaults. An optional
+ *             number is unset as TENDRIL_UNSET, which is NaN; a point or rotation by its x; a whole number as -1.
  * States      Everything that a solver or filter remembers is yours: a plain struct, or bytes of the size that the macro
  *             says. Copy it to roll back: the next call gives the same bits again. tendril_save and tendril_load add a
  *             checksum, for files.
@@ -111,7 +114,6 @@ typedef enum tendril_struct {
 
 /* A member of a struct, as the library checks it. */
 typedef struct tendril_field {
-    uint32_t size;
     int32_t values;             /* how many numbers: 1, 3 of a point, 4 of a rotation */
     const char* name;
     const char* unit;           /* "" for none */
@@ -402,11 +404,12 @@ size_t tendril_ik_solver_bones(tendril_ik_solver solver);
 /* Sum of the lengths, metres. */
 float tendril_ik_solver_reach(tendril_ik_solver solver);
 
-/* A state for this chain: at rest, with no memory. */
+/* A state for this chain: at rest, with no memory. Call it once per chain, before the first solve. */
 tendril_code tendril_ik_state_init(tendril_ik_solver solver, void* state, size_t state_size, tendril_error* error);
 
 /* Each bone's rotation from rest, in the world and relative to its parent bone, as engines store it. Either may be
-   NULL. */
+   NULL. They are those of the last solve with options.rotations = 1; limits, a tip orientation or a weight under 1
+   imply it. */
 tendril_code tendril_ik_state_rotations(tendril_ik_solver solver, const void* state, size_t state_size,
     tendril_quatf* world, size_t world_count, tendril_quatf* local, size_t local_count, tendril_error* error);
 

@@ -282,8 +282,8 @@ Result Body::Work::add_volumes(std::span<const rig::Transform> rest, std::span<c
     };
     for (std::size_t i = 0; i < volumes.size(); ++i) {
         for (std::size_t j = 0; j < volumes.size(); ++j) {
-            const Bone first = volumes[i].capsule.bone, other = volumes[j].capsule.bone;
-            if (!detail::may_collide(first, other) || (detail::may_collide(other, first) && j < i)) continue;
+            const Bone bone = volumes[i].capsule.bone, other = volumes[j].capsule.bone;
+            if (!detail::may_collide(bone, other) || (detail::may_collide(other, bone) && j < i)) continue;
             const double allowed = gap(placed(volumes[i]), placed(volumes[j]));
             const double radii = volumes[i].capsule.radius + volumes[j].capsule.radius;
             pairs.push_back({i, j, radii + std::min(allowed, 0.0)});
