@@ -107,7 +107,8 @@ TEST_F(SolveLinkage, TakesASceneOfTheLabWithItsRangesAndTargets) {
     const Json row = app::parse_json(outcome.out).at(0);
     EXPECT_EQ(row["status"], "Limited");
     EXPECT_EQ(row["active"], Json::array({"motor 1"}));
-    for (const int axis : {0, 1}) EXPECT_NEAR(row["points"]["B"][axis].get<double>(), std::sqrt(0.5), 1e-5);
+    for (const std::size_t axis : {0u, 1u})
+        EXPECT_NEAR(row["points"]["B"][axis].get<double>(), std::sqrt(0.5), 1e-5);
     const Outcome driven = run_program({"solve", scene, "--csv", "--drive", "motor 1=-5:5:5"});
     ASSERT_TRUE(succeeded(driven)) << driven.err;
     EXPECT_EQ(count_lines(driven.out), 4);
