@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "output_tables.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/humanoid/body.hpp"
 #include "tendril/humanoid/feet.hpp"

@@ -1,7 +1,5 @@
 #include "app/labs/rig/code.hpp"
 
-#include <tendril/signal/filter.hpp>
-
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/code_text.hpp"

@@ -249,8 +249,7 @@ void add_element_commands(CommandTable& table) {
     table.add(
         rig_command("rig.element.mirror", "Mirror a branch", {element_argument("name", true, "at its top")},
                     "Copies an element, all below it and the units that move them to the other side of its "
-                    "parent, across "
-                    "x; left becomes right in names",
+                    "parent, across x; left becomes right in names",
                     [](RigPart& part, const Arguments& given) { mirror_branch(part, given.text("name")); }));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the elements or the unit, whichever was selected last", remove_selected));

@@ -423,7 +423,7 @@ namespace {
 
 using Copies = std::map<std::string, std::string>;
 
-/// Gives a unit the names and the literals of the other side. The flags tell of the unit given last.
+/// Rewrites a unit for the other side: its names and its literals. The flags describe the last one rewritten.
 struct OtherSide {
     const Copies &elements, &units;
     const RigPart& part;
@@ -475,7 +475,8 @@ struct OtherSide {
     }
 
   private:
-    /// Of a literal in global space; none in a space that is mirrored too, such as the item's own.
+    /// Where a literal is mirrored: across the rest plane if it is in global space; none if its space is
+    /// mirrored with it, such as the item's own.
     std::optional<rig::Transform> space_of(const rig::Operation& operation, const std::string& place) const {
         using Space = std::optional<rig::Transform>;
         const rig::Transform directions{.rotation = plane.rotation};
@@ -497,9 +498,9 @@ struct OtherSide {
     }
 };
 
-/// Copies the units that set the branch, and those that only these use, each after its original. One that the
-/// mirror does not change serves both sides. So does a for-each, unless its body has sides, or
-/// counts elements of the branch only.
+/// Copies the units that set the branch, and the units that only these use, each after its original. A unit
+/// that the mirror leaves as it is serves both sides. So does a for-each, unless its body changes, or it
+/// counts the elements of the branch alone.
 void mirror_units(rig::Units& units, const RigPart& part, const Copies& elements,
                   const rig::Transform& plane) {
     Copies copies;

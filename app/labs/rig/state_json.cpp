@@ -7,7 +7,6 @@
 #include <cstring>
 #include <glm/trigonometric.hpp>
 #include <string_view>
-#include <tendril/signal/filter.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"

@@ -1,11 +1,12 @@
 // `operator new` and `delete` of the shared library, local to it: it exports tendril_* alone, and has its own
 // copy of the C++ library, so that no block is released by another's `delete`.
-#include "allocator.hpp"
 
 #include <atomic>
 #include <cstdlib>
 #include <limits>
 #include <new>
+
+#include "call.hpp"
 
 namespace tendril::door {
 namespace {

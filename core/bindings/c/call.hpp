@@ -150,4 +150,7 @@ void read_choice(Call& call, const Place& place, const C& given, Cpp& to,
                     names.back(), number);
 }
 
+/// Memory from the caller. This library's own `operator new` asks for it; no other library's does.
+void set_allocator(Call& call, const tendril_allocator* allocator) noexcept;
+
 }  // namespace tendril::door

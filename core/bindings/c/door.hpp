@@ -1,7 +1,6 @@
 // The few calls whose form differs in C: the library's answers as a Result, and states as bytes.
 #pragma once
 
-#include "../output_tables.hpp"
 #include "handles.hpp"
 #include "structs.hpp"
 #include "tendril/ik/solver.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "allocator.hpp"
 #include "handles.hpp"
 #include "structs.hpp"
 #include "tendril/version.hpp"

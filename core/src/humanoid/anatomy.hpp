@@ -29,8 +29,8 @@ inline std::optional<Bone> limb_child(Bone bone) noexcept {
     return std::nullopt;
 }
 
-/// The figure's height at rest, told from hips to head plus a leg: 1 for 1.8 m, where these measure 1.45 m,
-/// or if they have no length.
+/// How large a figure is at rest, 1 at a height of 1.8 m: hips to head plus a leg, which measure 1.45 m
+/// there. The leg is the mean of both, or the one that is mapped. 1 if none of these has a length.
 double size_of(const BoneMap& map, std::span<const Placement> rest) noexcept;
 
 /// Where a bone points in a T-pose.

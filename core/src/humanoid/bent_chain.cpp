@@ -143,8 +143,9 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
                                       const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept {
     const auto no = [](const Result& why) { return ik::detail::refusal<ik::CurveReport>(why); };
     if (const Result bad = detail::check_pose("bend", pose, count); !bad) return no(bad);
+    static_assert(max_points == 256);
     if (given.empty() || given.size() > max_points)
-        return no(refused("bend", "points", "1 to max_points in number", given.size()));
+        return no(refused("bend", "points", "1 to 256 in number", given.size()));
     for (std::size_t i = 0; i < given.size(); ++i)
         if (const Result bad = tendril::detail::check_point("bend", {"points", i}, given[i]); !bad)
             return no(bad);

@@ -171,7 +171,7 @@ void BodySolve::set_goals() noexcept {
             if (each.end == work_.ends[index]) limb = &each;
         goals_[count_++] = {index, position, weight, target, limb};
     };
-    for (std::size_t e = 0; e < effector_count; ++e) {  // whatever the order of the targets
+    for (std::size_t e = 0; e < effector_count; ++e) {  // the order of the targets does not matter
         const auto effector = static_cast<Effector>(e);
         const auto target = std::ranges::find(targets_, effector, &BodyTarget::effector);
         if (target != targets_.end() && target->weight > 0.0) {

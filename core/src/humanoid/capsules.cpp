@@ -71,16 +71,21 @@ class DefaultCapsules {
 }  // namespace
 
 double detail::size_of(const BoneMap& map, std::span<const Placement> rest) noexcept {
-    const auto way = [&](Bone from, Bone to) {
-        const std::int32_t a = map[from].node, b = map[to].node;
-        if (a < 0 || b < 0) return 0.0;
-        return length(
-            minus(rest[static_cast<std::size_t>(b)].position, rest[static_cast<std::size_t>(a)].position));
+    const auto way = [&](std::initializer_list<Bone> bones) {
+        double sum = 0.0;
+        const glm::dvec3* last = nullptr;
+        for (const Bone bone : bones) {
+            if (map[bone].node < 0) continue;
+            const glm::dvec3& at = rest[static_cast<std::size_t>(map[bone].node)].position;
+            if (last != nullptr) sum += length(minus(at, *last));
+            last = &at;
+        }
+        return sum;
     };
-    const double left = way(Bone::LeftUpperLeg, Bone::LeftLowerLeg) + way(Bone::LeftLowerLeg, Bone::LeftFoot),
-                 right = way(Bone::RightUpperLeg, Bone::RightLowerLeg) +
-                         way(Bone::RightLowerLeg, Bone::RightFoot);
-    const double size = (way(Bone::Hips, Bone::Head) + 0.5 * (left + right)) / 1.45;
+    const double left = way({Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot}),
+                 right = way({Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot});
+    const double leg = left > 0.0 && right > 0.0 ? 0.5 * (left + right) : left + right;
+    const double size = (way({Bone::Hips, Bone::Head}) + leg) / 1.45;
     return size > 1e-9 ? size : 1.0;
 }
 

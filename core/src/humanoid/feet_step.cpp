@@ -195,7 +195,7 @@ FeetReport FeetStep::report() const noexcept {
 
 FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, double dt, FeetState& state,
                       const FeetOptions& options) const noexcept {
-    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "feet")};
     const detail::FeetPlan& plan = *plan_;
     if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
     if (const Result bad = check(options); !bad) return {.accepted = bad};

@@ -188,7 +188,7 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
 
 HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targets, double dt,
                         HandsState& state, const HandsOptions& options) const noexcept {
-    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "hands")};
     const Plan& plan = *plan_;
     if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
     if (const Result bad = check(options); !bad) return {.accepted = bad};

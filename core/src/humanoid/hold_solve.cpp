@@ -47,8 +47,8 @@ constexpr double straight_slack = 0.03;
 }  // namespace
 
 void HoldSolve::find_arms() noexcept {
-    for (const Effector hand :
-         {Effector::LeftHand, Effector::RightHand}) {  // whatever the order of the grips
+    // The order of the grips does not matter.
+    for (const Effector hand : {Effector::LeftHand, Effector::RightHand}) {
         const auto found = std::ranges::find(object_.grips, hand, &Grip::hand);
         if (found == object_.grips.end()) continue;
         const Grip& grip = *found;

@@ -54,10 +54,9 @@ inline Result check_pose(std::string_view operation, std::span<const rig::Transf
     return tendril::detail::refused(operation, {"pose", invalid}, "finite, at most 1e9, with a unit rotation",
                                     "one that is not");
 }
-/// For bones that give numbers no solver can use.
+/// Refuses bones so long or short that the solver's numbers would not be finite.
 inline Result refused_bones(std::string_view operation) noexcept {
-    return tendril::detail::refused(operation, "pose", "of bones neither too long nor too short",
-                                    "one that is not");
+    return tendril::detail::refused(operation, "pose", "one whose bones have usable lengths", "others");
 }
 
 /// Refuses a quaternion that cannot be normalised.

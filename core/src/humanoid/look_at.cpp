@@ -129,7 +129,7 @@ Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
 
 LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& options, double dt,
                           LookAtState& state) const noexcept {
-    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "look_at")};
     const Plan& plan = *plan_;
     if (const Result bad = detail::check_pose("step", pose, plan.nodes); !bad) return {.accepted = bad};
     if (const Result bad = check(options); !bad) return {.accepted = bad};

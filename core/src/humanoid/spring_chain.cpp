@@ -119,7 +119,8 @@ Result check(std::span<const PlacedCapsule> colliders) noexcept {
         const PlacedCapsule& each = colliders[i];
         if (!detail::is_within(each.from) || !detail::is_within(each.to) ||
             !(each.radius >= 0.0 && each.radius <= static_cast<double>(max_magnitude)))
-            return refused("step", {"colliders", i}, "of numbers up to 1e9", "others");
+            return refused("step", {"colliders", i}, "finite, at most 1e9, with a radius of at least 0",
+                           "one that is not");
     }
     return {};
 }
@@ -325,13 +326,13 @@ SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const Spring
 
 SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                                SpringChainState& state, std::span<const PlacedCapsule> colliders) noexcept {
-    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "solver")};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("step", "spring_chain")};
     return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state, colliders);
 }
 
 SpringReport SpringChain::teleport(std::span<rig::Transform> pose, const SpringOptions& options,
                                    SpringChainState& state) noexcept {
-    if (!plan_) return {.accepted = tendril::detail::moved_from("teleport", "solver")};
+    if (!plan_) return {.accepted = tendril::detail::moved_from("teleport", "spring_chain")};
     return plan_->run(pose, options, Time::Jumps, 0.0, state, {});
 }
 

@@ -55,4 +55,8 @@ TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptio
 }  // namespace tendril::ik
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBone>() noexcept;
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneResult>() noexcept;

@@ -77,39 +77,3 @@ const void* fields_in(const Filter& filter) noexcept;
 const char* kind(const Filter& filter) noexcept;
 
 }  // namespace tendril::signal
-
-namespace tendril {
-template <>
-std::span<const Field> fields<signal::InterpTo>() noexcept;
-template <>
-std::span<const Field> fields<signal::InterpToExact>() noexcept;
-template <>
-std::span<const Field> fields<signal::ScaleBiasClamp>() noexcept;
-template <>
-std::span<const Field> fields<signal::ExponentialDecay>() noexcept;
-template <>
-std::span<const Field> fields<signal::RateLimit>() noexcept;
-template <>
-std::span<const Field> fields<signal::SmoothDamp>() noexcept;
-template <>
-std::span<const Field> fields<signal::SpringSemiImplicit>() noexcept;
-template <>
-std::span<const Field> fields<signal::OneEuro>() noexcept;
-template <>
-std::span<const Field> fields<signal::MovingAverage>() noexcept;
-template <>
-std::span<const Field> fields<signal::DeadZone>() noexcept;
-template <>
-std::span<const Field> fields<signal::Hysteresis>() noexcept;
-template <>
-std::span<const Field> fields<signal::Inertialize>() noexcept;
-template <>
-std::span<const Field> fields<signal::OutputState>() noexcept;
-template <>
-std::span<const Field> fields<signal::MotionState>() noexcept;
-/// All fields but `entries`.
-template <>
-std::span<const Field> fields<signal::MovingAverageState>() noexcept;
-template <>
-std::span<const Field> fields<signal::InertializeState>() noexcept;
-}  // namespace tendril

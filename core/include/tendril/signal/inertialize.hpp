@@ -11,6 +11,7 @@
 // Cost: one exponential, about 40 ns.
 #pragma once
 
+#include "tendril/fields.hpp"
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
@@ -37,3 +38,8 @@ double step(const Inertialize& parameters, InertializeState& state, double input
             Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::Inertialize>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::InertializeState>() noexcept;

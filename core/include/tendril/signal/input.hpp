@@ -16,6 +16,7 @@
 // throws, except that a moving average allocates until its window is full.
 #pragma once
 
+#include "tendril/fields.hpp"
 #include "tendril/magnitude.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
@@ -50,3 +51,6 @@ struct OutputState {
 };
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::OutputState>() noexcept;

@@ -9,6 +9,7 @@
 // Cost: a few ns; for thousands of values at once see batch.hpp.
 #pragma once
 
+#include "tendril/fields.hpp"
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
@@ -53,3 +54,8 @@ double step(const InterpToExact& parameters, OutputState& state, double input, d
             Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::InterpTo>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::InterpToExact>() noexcept;

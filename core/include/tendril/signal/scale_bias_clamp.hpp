@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "tendril/fields.hpp"
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
@@ -35,3 +36,6 @@ double step(const ScaleBiasClamp& parameters, OutputState& state, double input, 
             Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::ScaleBiasClamp>() noexcept;

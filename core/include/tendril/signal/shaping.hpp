@@ -2,6 +2,7 @@
 // Cost: a few ns.
 #pragma once
 
+#include "tendril/fields.hpp"
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
@@ -25,3 +26,8 @@ double step(const Hysteresis& parameters, OutputState& state, double input, doub
             Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::DeadZone>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::Hysteresis>() noexcept;

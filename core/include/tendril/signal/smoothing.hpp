@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
@@ -101,3 +102,21 @@ double step(const MovingAverage& parameters, MovingAverageState& state, double i
             Result* why = nullptr) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::ExponentialDecay>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::RateLimit>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SmoothDamp>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SpringSemiImplicit>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::OneEuro>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::MovingAverage>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::MotionState>() noexcept;
+/// All fields but `entries`.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::MovingAverageState>() noexcept;

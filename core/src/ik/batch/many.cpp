@@ -353,7 +353,7 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
         check_point("solve_many", {"targets", summary.first_invalid}, targets[summary.first_invalid]);
     if (summary.accepted)
         summary.accepted = tendril::detail::refused("solve_many", {"chains", summary.first_invalid},
-                                                    "of joints within 1e9 m of the origin", "others");
+                                                    "within 1e9 m of the origin", "a joint farther away");
     return summary;
 }
 

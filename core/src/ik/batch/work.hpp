@@ -18,7 +18,7 @@
 
 namespace tendril::ik::detail {
 
-/// Of a chain that was refused: no comparison of residuals takes it for a success.
+/// Report of a refused chain. Its residual is infinite: no comparison takes that for success.
 inline constexpr ManyReport refused_chain{.status = Status::InvalidInput,
                                           .residual = std::numeric_limits<float>::infinity()};
 

@@ -133,6 +133,11 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
     return result;
 }
 
+constexpr FieldRange bone_lengths{0.0, max_magnitude};
+constexpr Field limb_rows[] = {
+    field<&TwoBone::root>("root", anywhere, "m"), field<&TwoBone::mid>("mid", anywhere, "m"),
+    field<&TwoBone::tip>("tip", anywhere, "m"), field<&TwoBone::upper>("upper", bone_lengths, "m"),
+    field<&TwoBone::lower>("lower", bone_lengths, "m")};
 constexpr Field two_bone_rows[] = {
     field<&TwoBoneOptions::pole>("pole", {-max_magnitude, max_magnitude}, "m"),
     field<&TwoBoneOptions::start_stretch_ratio>("start_stretch_ratio", stretch_starts).over(),
@@ -142,12 +147,8 @@ constexpr Field two_bone_rows[] = {
 Result check_limb(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
     using namespace tendril::detail;
     constexpr const char* op = "two_bone";
-    if (const Result bad = check_point(op, "limb.root", limb.root); !bad) return bad;
-    if (const Result bad = check_point(op, "limb.mid", limb.mid); !bad) return bad;
-    if (const Result bad = check_point(op, "limb.tip", limb.tip); !bad) return bad;
+    if (!are_in_range<limb_rows>(&limb)) return check_fields(op, limb, "limb");
     if (const Result bad = check_point(op, "target", target); !bad) return bad;
-    if (const Result bad = check_length(op, "limb.upper", limb.upper); !bad) return bad;
-    if (const Result bad = check_length(op, "limb.lower", limb.lower); !bad) return bad;
     return are_in_range<two_bone_rows>(&options) ? Result() : check_fields(op, options);
 }
 
@@ -202,6 +203,21 @@ template Report two_bone_solve(Problem&, Watched) noexcept;
 }  // namespace detail
 }  // namespace tendril::ik
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBone>() noexcept {
+    return ik::limb_rows;
+}
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneResult>() noexcept {
+    using ik::TwoBoneResult;
+    static const Field rows[] = {
+        field<&TwoBoneResult::status>("status", field_of<&ik::Report::status>().choices),
+        field<&TwoBoneResult::mid>("mid", ik::detail::anywhere, "m"),
+        field<&TwoBoneResult::tip>("tip", ik::detail::anywhere, "m"),
+        field<&TwoBoneResult::scale>("scale", {1.0, 100.0}),
+        field<&TwoBoneResult::residual>("residual", {0.0, std::numeric_limits<double>::infinity()}, "m")};
+    return rows;
+}
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneOptions>() noexcept {
     return ik::two_bone_rows;

@@ -12,7 +12,6 @@ namespace tendril::ik {
 namespace {
 
 constexpr const char* sides[] = {"free", "left", "right"};
-constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
 
 constexpr std::uint16_t bit(Method method) noexcept {
     return static_cast<std::uint16_t>(1u << static_cast<unsigned>(method));

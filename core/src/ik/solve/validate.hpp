@@ -9,6 +9,7 @@
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/plane.hpp"
 #include "tendril/ik/state.hpp"
+#include "tendril/magnitude.hpp"
 #include "tendril/quat.hpp"
 
 namespace tendril::ik {
@@ -39,6 +40,8 @@ inline bool within(float value, float minimum, float maximum) noexcept {
 inline bool within(float value, FieldRange range) noexcept {
     return within(value, static_cast<float>(range.low), static_cast<float>(range.high));
 }
+/// Coordinates, metres.
+inline constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
 /// Ranges of start_stretch_ratio (low end excluded) and of max_stretch_scale.
 inline constexpr FieldRange stretch_starts{0.0, 1.0}, stretch_scales{1.0, 100.0};
 
