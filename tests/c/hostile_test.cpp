@@ -241,6 +241,15 @@ TEST(CHostile, RandomCallsFromFourThreadsAreErrors) {
     EXPECT_GT(accepted, 10'000) << "mostly refused at the door: tests too little";
 }
 
+TEST(CHostile, AHandleWithAnotherBitIsStale) {
+    TwinArm arm({0.5f, 0.4f});
+    for (int bit = 0; bit < 32; ++bit) {
+        tendril_ik_solver forged = arm.c_solver;
+        forged.generation ^= 1u << bit;
+        EXPECT_EQ(tendril_ik_solver_bones(forged), 0u) << bit;
+    }
+}
+
 TEST(CHostile, DestroyedHandlesStayStale) {
     TwinArm arm({1.0f, 1.0f});
     tendril_ik_solver first{}, second{};

@@ -88,6 +88,17 @@ TEST(CState, WithAWrongBitIsRefusedOrHarmless) {
     }
 }
 
+TEST(CState, ThatIsNoStateGivesNoRotations) {
+    TwinArm arm({0.5f, 0.4f, 0.3f});
+    std::vector<tendril_quatf> turns(3);
+    const float nan = NAN;
+    std::memcpy(arm.c_state.data() + 8, &nan, sizeof nan);  // in the first rotation
+    EXPECT_EQ(tendril_ik_state_rotations(arm.c_solver, arm.c_state.data(), arm.c_state.size(), turns.data(),
+                                         turns.size(), nullptr, 0, &arm.error),
+              TENDRIL_INVALID_ARGUMENT);
+    EXPECT_EQ(turns[0].w, 0.0f);
+}
+
 TEST(CState, OfAnotherArmIsRefused) {
     TwinArm arm({0.5f, 0.4f, 0.3f}), longer({0.5f, 0.4f, 0.3f, 0.2f});
     EXPECT_EQ(

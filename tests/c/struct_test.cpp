@@ -48,6 +48,16 @@ TEST(CStruct, LimitsOfAnOlderVersionStandCloser) {
     arm.solve({0.2f, 0.4f, 0.1f}, options, c_options);
 }
 
+TEST(CStruct, ElementsOfUnequalSizesAreRefused) {
+    TwinArm arm({0.5f, 0.4f});
+    tendril_ik_limit limits[2] = {tendril_ik_limit_default(), tendril_ik_limit_default()};
+    limits[1].size -= 4;
+    tendril_ik_options options = tendril_ik_options_default();
+    options.limits = limits, options.limits_count = 2;
+    EXPECT_EQ(arm.solve_c({0.3f, 0.6f, 0.0f}, &options), TENDRIL_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(arm.error.message, "options.limits[1]"), nullptr) << arm.error.message;
+}
+
 TEST(CStruct, AMemberThatTheCallersStructHasInPartIsNotThere) {
     tendril_error error;
     tendril_ik_options options = tendril_ik_options_default();
