@@ -26,7 +26,7 @@ constexpr Field option_rows[] = {
     field<&Options::every_iteration>("every_iteration").by(iterating, all),
     list<&Options::limits>("limits"),
     nested<&Options::plane>("plane"),
-    field<&Options::pole>("pole", anywhere, "m"),
+    field<&Options::pole>("pole", detail::anywhere, "m"),
     field<&Options::pole_turn>("pole_turn", detail::turn_names).by(iterating, none),
     field<&Options::snap_back>("snap_back").by(iterating, all),
     field<&Options::tip_orientation>("tip_orientation", unit_length),
@@ -36,13 +36,13 @@ constexpr Field option_rows[] = {
         .over()
         .by(two_bone, none),
     field<&Options::max_stretch_scale>("max_stretch_scale", detail::stretch_scales).by(two_bone, none),
-    field<&Options::twist>("twist", anywhere, "rad").by(two_bone, two_bone),
+    field<&Options::twist>("twist", detail::anywhere, "rad").by(two_bone, two_bone),
     field<&Options::weight>("weight"),
     field<&Options::restarts>("restarts", {0, 1000}).by(none, fabrik),
     field<&Options::rotations>("rotations").by(all, none),
     list<&Options::residuals>("residuals", {0.0, max_magnitude}, "m")};
-constexpr Field plane_rows[] = {field<&Plane::normal>("normal", anywhere), field<&Plane::bend>("bend", sides),
-                                list<&Plane::limits>("limits")};
+constexpr Field plane_rows[] = {field<&Plane::normal>("normal", detail::anywhere),
+                                field<&Plane::bend>("bend", sides), list<&Plane::limits>("limits")};
 
 }  // namespace
 
