@@ -1,6 +1,6 @@
-// Prints every table of the library as JSON, one row a line: core/bindings/tables.json, from which `generate`
-// writes the interfaces for other languages. A table is a C++ value, so a program reads it best. `update`
-// runs this.
+// Prints all tables of the library as JSON, one row per line: core/bindings/tables.json, from which
+// `generate` writes the interfaces for other languages. `update` runs it. Tables are C++ values, so only a
+// program can read them.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -64,8 +64,8 @@ std::string text_of(double number) {
     return {buffer, end.ptr};
 }
 
-/// "i32", "u8"...: a row says only that it is a whole number, but one beyond any integer becomes the type's
-/// limit. `fresh` is a struct that may be changed.
+/// "i32", "u8"...: a row says only that it is an integer, but out-of-range values become the limits of its
+/// type. Restores `fresh` afterwards.
 std::string integer_type(const Field& row, void* fresh) {
     const FieldValue before = row.get(fresh);
     row.set(fresh, {-1e300});
@@ -109,7 +109,7 @@ std::string type_of(const Field& row, void* fresh) {
     return "";
 }
 
-/// Without the library's own namespace.
+/// Strips the library's own namespace.
 std::string_view short_name(std::string_view name) {
     constexpr std::string_view space = "tendril::";
     return name.starts_with(space) ? name.substr(space.size()) : name;

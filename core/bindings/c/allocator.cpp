@@ -1,5 +1,5 @@
-// `operator new` and `delete` of the shared library, local to it: it exports tendril_* alone, and has its own
-// copy of the C++ library, so that no block is released by another's `delete`.
+// The shared library's own `operator new` and `delete`. It exports only tendril_* and has its own copy of the
+// C++ library, so no other library's `delete` releases its blocks.
 
 #include <atomic>
 #include <cstdlib>
@@ -22,8 +22,7 @@ constexpr tendril_allocator plain{plain_allocate, plain_release, nullptr};
 constinit tendril_allocator current = plain;
 constinit std::atomic<std::size_t> live_blocks{0};
 
-/// Before each block: what `release` is told. A block begins `alignment` bytes after the memory that it lies
-/// in.
+/// Stored before each block: the arguments of `release`. The block begins `alignment` bytes into its memory.
 struct Head {
     std::size_t size, alignment;
 };

@@ -1,7 +1,7 @@
-// One call through the C interface: its refusal, and the error that the caller gets.
+// One call through the C interface: its first refusal, and the error for the caller.
 //
-// Arguments are read by functions that cannot fail: they give a harmless value and note the first refusal
-// here. So a generated function reads all of its arguments, asks refused() once, and calls the library.
+// Functions that read arguments cannot fail: they return a harmless value and note the first refusal here. So
+// a generated function reads all its arguments, checks refused() once, and calls the library.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 
 namespace tendril::door {
 
-/// The most elements of a list: more is taken for a wrong number, before it is read.
+/// Maximum number of elements in a list. A larger number is refused as a mistake before anything is read.
 inline constexpr std::size_t most_elements = 1'000'001;
 
-/// A message in the making: what does not fit is cut.
+/// A message under construction; text that does not fit is cut off.
 class Text {
   public:
     Text(char* text, std::size_t size) noexcept : text_(text), left_(size) { *text = '\0'; }
@@ -43,7 +43,7 @@ class Text {
     std::size_t left_;
 };
 
-/// An argument, a member or an element, for messages: "options.limits[2].kind".
+/// An argument, member or element as messages name it: "options.limits[2].kind".
 struct Place {
     const char* name;
     const Place* above = nullptr;
@@ -83,7 +83,7 @@ class Call {
         text.add(format, values);
         va_end(values);
     }
-    /// In the library's own words.
+    /// Passes on the library's own message.
     void refuse(const Result& result) noexcept {
         if (result || refused()) return;
         static_assert(static_cast<int>(ErrorCode::AlreadyExists) == TENDRIL_ALREADY_EXISTS);
@@ -102,7 +102,7 @@ class Call {
     tendril_code code_ = TENDRIL_OK;
 };
 
-/// Nothing that is thrown leaves: the library throws only where memory runs out.
+/// Runs `body` and catches its exceptions. The library throws only when memory runs out.
 template <class Body>
 tendril_code call(const char* operation, tendril_error* error, Body&& body) noexcept {
     Call made(operation, error);
@@ -114,7 +114,7 @@ tendril_code call(const char* operation, tendril_error* error, Body&& body) noex
     return made.code();
 }
 
-/// A pointer and a number of elements. Points and rotations lie in memory as the library has them.
+/// A list from a pointer and a count. Points and rotations have the same memory layout in C and C++.
 template <class Cpp, class C>
 std::span<Cpp> list(Call& call, const Place& place, C* elements, std::size_t count,
                     bool may_be_null) noexcept {
@@ -131,7 +131,7 @@ std::span<Cpp> list(Call& call, const Place& place, C* elements, std::size_t cou
     return {reinterpret_cast<Cpp*>(elements), count};
 }
 
-/// An enumeration as a number: the caller may have given any.
+/// An enumeration as a number, which may be none of its values.
 template <class C>
 std::uint32_t number_of(const C& given) noexcept {
     static_assert(sizeof(C) == sizeof(std::uint32_t));
@@ -150,7 +150,7 @@ void read_choice(Call& call, const Place& place, const C& given, Cpp& to,
                     names.back(), number);
 }
 
-/// Memory from the caller. This library's own `operator new` asks for it; no other library's does.
+/// Sets the source of memory. Only this library's own `operator new` uses it.
 void set_allocator(Call& call, const tendril_allocator* allocator) noexcept;
 
 }  // namespace tendril::door

@@ -9,7 +9,7 @@ std::uint32_t size_of(Call& call, const Place& place, const void* given, const K
     }
     std::uint32_t size;
     std::memcpy(&size, given, sizeof size);
-    // The size of an older version is a whole number of its alignment: it does not end within a pointer.
+    // The size of an older version is a multiple of its alignment: it does not end inside a pointer.
     if (size >= sizeof size && size <= kind.size && size % kind.align == 0) return size;
     if (size == 0)
         call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has size 0; make it by %s_default()", kind.name);
@@ -33,7 +33,7 @@ Result explain(ik::Solver& solver, std::span<const glm::vec3> joints, const ik::
         limit = *active;
         return {};
     }
-    // No limit is to blame, or the input was refused, which a solve would say.
+    // No limit is to blame, or the input is invalid: a solve reports which.
     std::vector<glm::vec3> moved(joints.begin(), joints.end());
     ik::State changed = state;
     return solver.solve(ik::Method::Fabrik, moved, changed, target, options).accepted;
@@ -56,7 +56,7 @@ Result two_bone(const ik::TwoBone& limb, glm::vec3 target, const ik::TwoBoneOpti
     return result.accepted;
 }
 
-// ---- ik::State as bytes: a word that says so, the number of bones, numbers, flags.
+// ---- ik::State as bytes: a word that identifies the format, the number of bones, numbers, flags.
 
 namespace {
 
@@ -88,7 +88,7 @@ class Reader {
         at_ += sizeof value;
     }
     void flag(bool& value) noexcept { value = *at_++ != std::byte{0}; }
-    /// False for a value that the enumeration does not have.
+    /// False for a number that is none of the enumeration's values.
     template <class Choice>
     bool choice(Choice& value, Choice last) noexcept {
         value = static_cast<Choice>(*at_++);

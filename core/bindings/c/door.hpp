@@ -1,4 +1,4 @@
-// The few calls whose form differs in C: the library's answers as a Result, and states as bytes.
+// Calls that take another form in C: they return a Result, and states are bytes.
 #pragma once
 
 #include "handles.hpp"
@@ -24,7 +24,7 @@ Result step(const Filter& filter, State& state, double input, double seconds, do
     return accepted;
 }
 
-/// A state as the caller keeps it. No allocation, if the state that it is read to had the size before.
+/// A state in the caller's bytes. Reading allocates nothing if `state` already has the right size.
 std::size_t bytes_of(const ik::State&, std::size_t bones) noexcept;
 bool read_bytes(const std::byte* bytes, std::size_t bones, ik::State& state);
 void write_bytes(const ik::State& state, std::byte* bytes) noexcept;

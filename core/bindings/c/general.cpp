@@ -1,4 +1,4 @@
-// The general functions of the C interface: those that take any struct, and the version.
+// The general functions of the C interface, which take any struct, and the version.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace tendril::door;
 
 namespace {
 
-/// Raised by a change after which a program compiled before would misread something; see abi.txt.
+/// Increment it when a change makes older programs misread something; see abi.txt.
 constexpr std::uint32_t abi = 0;
 
 const Kind& kind_or_refuse(Call& call, const tendril_struct& which) noexcept {
@@ -38,7 +38,7 @@ void store(std::byte* at, int count, const double* values) noexcept {
         std::memcpy(at + static_cast<std::size_t>(i) * sizeof number, &number, sizeof number);
     }
 }
-/// Calls body(number of the member's type, how many).
+/// Calls `body` with a number of the member's type and the count of numbers.
 template <class Body>
 void with_numbers(MemberType type, Body&& body) noexcept {
     switch (type) {
@@ -70,7 +70,7 @@ std::size_t end_of(const Member& member) noexcept {
                  [&](auto number, int count) { end += sizeof number * static_cast<unsigned>(count); });
     return end;
 }
-/// The member of that name, if the caller's struct has all of it.
+/// The member with this name, if it lies within the caller's version of the struct.
 const Member* find_member(Call& call, const Kind& kind, const void* object, const char* name) noexcept {
     const std::uint32_t size = size_of(call, {"object"}, object, kind);
     if (name == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"name"}, "is NULL");
@@ -81,7 +81,7 @@ const Member* find_member(Call& call, const Kind& kind, const void* object, cons
                 name);
     return nullptr;
 }
-/// A member's numbers. One that is unset reads as NaN, a whole one too.
+/// Reads a member's numbers. An unset member reads as NaN, even if it is an integer.
 void get(const Kind& kind, const Member& member, const void* object, double* values) noexcept {
     const std::byte* const at = static_cast<const std::byte*>(object) + member.offset;
     with_numbers(member.type, [&](auto number, int count) { load<decltype(number)>(at, count, values); });
@@ -97,7 +97,7 @@ struct SavedHead {
 };
 static_assert(sizeof(SavedHead) == TENDRIL_SAVED_BYTES(0));
 
-/// FNV-1a: no single wrong byte keeps it.
+/// FNV-1a: changing any one byte changes it.
 std::uint64_t checksum(const std::byte* bytes, std::size_t size, std::uint32_t kind) noexcept {
     std::uint64_t sum = 14695981039346656037u ^ kind;
     for (std::size_t i = 0; i < size; ++i)
@@ -105,7 +105,7 @@ std::uint64_t checksum(const std::byte* bytes, std::size_t size, std::uint32_t k
     return sum;
 }
 
-/// Whether a state of that kind can be saved, and its number as a plain one.
+/// The struct's number. Refuses one whose states cannot be saved.
 std::uint32_t saved_kind(Call& call, const tendril_struct& which) noexcept {
     const std::uint32_t number = number_of(which);
     const Kind* const kind = kind_of(which);

@@ -1,9 +1,9 @@
-// Written by core/bindings/generate from tables.json and functions.txt. Edit those.
+// Written by core/bindings/generate from tables.json and functions.txt. Edit those instead.
 #include "door.hpp"
 
 namespace tendril::door {
 
-/// Memory of an object's calls: lists as the library has them, and states.
+/// Scratch memory for an object's calls: the library's lists and states.
 struct Scratch {
     std::vector<ik::AngleLimit> ik_angle_limit{};
     std::vector<ik::Limit> ik_limit{};
@@ -139,7 +139,7 @@ void Of<tendril_ik_limit>::read(Call& call, const Place& place, const tendril_ik
     copy(from.stiffness, to.stiffness);
 }
 void Of<tendril_ik_limit>::write(const Cpp& from, tendril_ik_limit& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     to.kind = static_cast<tendril_ik_joint_kind>(from.kind);
     copy(from.axis, to.axis);
@@ -170,7 +170,7 @@ void Of<tendril_ik_angle_limit>::read(Call& call, const Place& place, const tend
     read_choice(call, {"from", &place}, from.from, to.from, ik_angle_from_names);
 }
 void Of<tendril_ik_angle_limit>::write(const Cpp& from, tendril_ik_angle_limit& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.min, to.min);
     copy(from.max, to.max);
@@ -190,7 +190,7 @@ void Of<tendril_ik_chain_plane>::read(Call& call, const Place& place, const tend
     to.limits = read_list(call, {"limits", &place}, from.limits, from.limits_count, scratch.ik_angle_limit, scratch);
 }
 void Of<tendril_ik_chain_plane>::write(const Cpp& from, tendril_ik_chain_plane& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.normal, to.normal);
     to.bend = static_cast<tendril_ik_side>(from.bend);
@@ -223,7 +223,7 @@ void Of<tendril_ik_options>::read(Call& call, const Place& place, const tendril_
     copy(from.rotations, to.rotations);
 }
 void Of<tendril_ik_options>::write(const Cpp& from, tendril_ik_options& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.tolerance, to.tolerance);
     copy(from.max_iterations, to.max_iterations);
@@ -266,7 +266,7 @@ void Of<tendril_ik_report>::read(Call& call, const Place& place, const tendril_i
     copy(from.off_plane, to.off_plane);
 }
 void Of<tendril_ik_report>::write(const Cpp& from, tendril_ik_report& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     to.status = static_cast<tendril_ik_status>(from.status);
     copy(from.iterations, to.iterations);
@@ -297,7 +297,7 @@ void Of<tendril_ik_active_limit>::read(Call& call, const Place& place, const ten
     copy(from.enough, to.enough);
 }
 void Of<tendril_ik_active_limit>::write(const Cpp& from, tendril_ik_active_limit& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.joint, to.joint);
     to.kind = static_cast<tendril_ik_joint_kind>(from.kind);
@@ -323,7 +323,7 @@ void Of<tendril_ik_two_bone_limb>::read(Call&, const Place&, const tendril_ik_tw
     copy(from.lower, to.lower);
 }
 void Of<tendril_ik_two_bone_limb>::write(const Cpp& from, tendril_ik_two_bone_limb& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.root, to.root);
     copy(from.mid, to.mid);
@@ -347,7 +347,7 @@ void Of<tendril_ik_two_bone_options>::read(Call&, const Place&, const tendril_ik
     copy(from.twist, to.twist);
 }
 void Of<tendril_ik_two_bone_options>::write(const Cpp& from, tendril_ik_two_bone_options& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.pole, to.pole);
     copy(from.start_stretch_ratio, to.start_stretch_ratio);
@@ -371,7 +371,7 @@ void Of<tendril_ik_two_bone_result>::read(Call& call, const Place& place, const 
     copy(from.residual, to.residual);
 }
 void Of<tendril_ik_two_bone_result>::write(const Cpp& from, tendril_ik_two_bone_result& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     to.status = static_cast<tendril_ik_status>(from.status);
     copy(from.mid, to.mid);
@@ -394,7 +394,7 @@ void Of<tendril_signal_spring>::read(Call&, const Place&, const tendril_signal_s
     copy(from.target_velocity_amount, to.target_velocity_amount);
 }
 void Of<tendril_signal_spring>::write(const Cpp& from, tendril_signal_spring& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.strength, to.strength);
     copy(from.critical_damping, to.critical_damping);
@@ -416,7 +416,7 @@ void Of<tendril_signal_spring_state>::read(Call&, const Place&, const tendril_si
     copy(from.started, to.started);
 }
 void Of<tendril_signal_spring_state>::write(const Cpp& from, tendril_signal_spring_state& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.value, to.value);
     copy(from.velocity, to.velocity);
@@ -438,7 +438,7 @@ void Of<tendril_signal_one_euro>::read(Call&, const Place&, const tendril_signal
     copy(from.reset_jump, to.reset_jump);
 }
 void Of<tendril_signal_one_euro>::write(const Cpp& from, tendril_signal_one_euro& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.min_cutoff, to.min_cutoff);
     copy(from.beta, to.beta);
@@ -460,7 +460,7 @@ void Of<tendril_signal_motion_state>::read(Call&, const Place&, const tendril_si
     copy(from.velocity, to.velocity);
 }
 void Of<tendril_signal_motion_state>::write(const Cpp& from, tendril_signal_motion_state& to) noexcept {
-    to = {};  // lists and parts that are borrowed stay the caller's
+    to = {};  // borrowed lists and parts stay with the caller
     to.size = sizeof to;
     copy(from.started, to.started);
     copy(from.value, to.value);

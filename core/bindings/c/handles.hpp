@@ -1,8 +1,9 @@
-// Objects behind handles: an index of a slot, and a generation that is odd while the slot is in use.
+// Objects behind handles. A handle is the index of a slot and a generation, which is odd while the slot is in
+// use.
 //
-// C cannot be kept from using a handle after its object was destroyed, from two threads, or with bytes that
-// it made up, so each call asks the slot, which never goes away, and none of these crashes. This table is the
-// only global of the library: a handle by value needs one. Taking and giving back an object costs two atomic
+// C code can use a handle after its object was destroyed, from two threads, or with invented contents. Each
+// call therefore checks the slot, which always exists, so none of these crashes. This table is the library's
+// only global state, because handles are plain values. Taking and returning an object costs two atomic
 // operations, about 10 ns.
 #pragma once
 
@@ -16,13 +17,13 @@
 namespace tendril::door {
 
 inline constexpr std::uint32_t most_objects =
-    65'536;  // of one kind: 16 bytes each of memory that is zero until used
+    65'536;  // per kind: 16 bytes each of memory that is zero until used
 inline std::atomic<std::size_t> live_objects{0};
 
 template <class Object>
 class Slots {
   public:
-    /// Takes over an object; gives index and generation. False where all slots are in use.
+    /// Takes ownership of an object and returns its index and generation. False if all slots are in use.
     bool add(std::unique_ptr<Object> object, std::uint32_t& index, std::uint32_t& generation) noexcept {
         const std::lock_guard lock(mutex_);
         if (free_ == 0 && used_ == most_objects) return false;
@@ -35,8 +36,8 @@ class Slots {
         ++live_objects;
         return true;
     }
-    /// The object, for this call alone, until give_back(). Null and a refusal where there is none, or another
-    /// thread has it.
+    /// The object, for this call alone, until give_back(). Null, with a refusal, if there is none or another
+    /// thread is using it.
     Object* take(Call& call, const Place& place, std::uint32_t index, std::uint32_t generation) noexcept {
         const bool odd = generation % 2 == 1 && generation < 1u << 31;
         std::uint32_t word = generation << 1;
@@ -52,7 +53,7 @@ class Slots {
     void give_back(std::uint32_t index) noexcept {
         slots_[index].word.fetch_and(~busy, std::memory_order_release);
     }
-    /// Of an object that this call has taken.
+    /// Destroys an object that this call has taken.
     void remove(std::uint32_t index) noexcept {
         Slot& slot = slots_[index];
         delete slot.object;
@@ -76,18 +77,18 @@ class Slots {
     std::uint32_t free_ = 0, used_ = 0;
 };
 
-/// One for each kind of object.
+/// One table per kind of object.
 template <class Object>
 inline constinit Slots<Object> slots;
 
-/// An object and what its calls need of memory, so that they allocate nothing after the first.
+/// An object and the memory that its calls need, so that they allocate nothing after the first.
 template <class Cpp, class Scratch>
 struct Held {
     Cpp object;
     Scratch scratch{};
 };
 
-/// An object for the time of one call.
+/// Takes an object for the duration of one call.
 template <class Cpp, class Scratch>
 class Taken {
   public:
@@ -101,7 +102,7 @@ class Taken {
     Taken(const Taken&) = delete;
     Taken& operator=(const Taken&) = delete;
 
-    /// Only of a call that is not refused.
+    /// Requires that the call is not refused.
     Cpp& operator*() const noexcept { return held_->object; }
     Scratch& scratch_or(Scratch& other) const noexcept { return held_ != nullptr ? held_->scratch : other; }
     void destroy() noexcept {
@@ -114,7 +115,7 @@ class Taken {
     Held<Cpp, Scratch>* held_;
 };
 
-/// Writes the handle of a new object, or notes why there is none.
+/// Writes a new object's handle, or notes why it was not made.
 template <class Scratch, class Cpp, class C>
 void make(Call& call, C* out, Expected<Cpp> made) {
     if (!made) return call.refuse(made.error());

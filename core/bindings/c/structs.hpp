@@ -1,5 +1,5 @@
-// C structs with a size, and the library's structs. The caller's struct may be older and end earlier: it is
-// read over the defaults, and only as much of it is written.
+// Conversion between C structs, which begin with their size, and the library's structs. The caller's struct
+// may be older and shorter: it is read over the defaults, and written only up to its own end.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace tendril::door {
 
-// Values. An empty number is NaN in C, an empty count is -1.
+// Values. An optional number that is unset is NaN in C, an optional count -1.
 inline glm::vec3 value_of(tendril_vec3f v) noexcept {
     return {v.x, v.y, v.z};
 }
@@ -87,7 +87,7 @@ void copy(const std::optional<From>& from, To& to) noexcept {
         to = empty<To>();
 }
 
-/// How a member lies in a C struct.
+/// A member's type in a C struct.
 enum class MemberType : std::uint8_t { Flag, Choice, I32, U32, U64, F32, F64, Vec3f, Vec3, Quatf, Quat };
 
 /// A member that tendril_get and tendril_set reach by name.
@@ -97,7 +97,7 @@ struct Member {
     MemberType type;
 };
 
-/// A C struct as a value: its size, members and table.
+/// Describes a C struct: its size, members and table.
 struct Kind {
     const char* name;  ///< "tendril_ik_options"
     std::uint32_t size, align;
@@ -105,20 +105,20 @@ struct Kind {
     std::span<const Field> (*table)() noexcept;
     std::span<const Member> members;
     void (*fresh)(void* object) noexcept;                                ///< writes the defaults
-    Result (*fits)(const Field& row, const FieldValue& value) noexcept;  ///< whether a row takes a value
+    Result (*fits)(const Field& row, const FieldValue& value) noexcept;  ///< checks a value against a row
     void (*check)(Call& call, const void* object);
 };
-/// By tendril_struct; null where there is no such struct, and for states that are bytes.
+/// Looks up a struct. Null if it does not exist or is a state kept as bytes.
 const Kind* kind_of(const tendril_struct& which) noexcept;
-inline constexpr std::size_t most_bytes = 1024;  // of a C struct
+inline constexpr std::size_t most_bytes = 1024;  // per C struct
 
-/// Generated: a C struct's C++ struct, its Kind, and how to read the one and write the other.
+/// Generated: the C++ struct of a C struct, its Kind, and the conversions.
 template <class C>
 struct Of;
-/// Generated: memory of an object's calls.
+/// Generated: scratch memory for an object's calls.
 struct Scratch;
 
-/// The size of the caller's struct; 0 and a refusal where it cannot be right.
+/// The size of the caller's struct; 0, with a refusal, if it cannot be right.
 std::uint32_t size_of(Call& call, const Place& place, const void* given, const Kind& kind) noexcept;
 
 /// Reads the caller's struct over the defaults.
@@ -131,7 +131,7 @@ void read_struct(Call& call, const Place& place, const C* given, typename Of<C>:
     std::memcpy(static_cast<void*>(&known), given, size);
     Of<C>::read(call, place, known, to, scratch);
 }
-/// The elements all have the size of the first: that of the version that the caller was compiled with.
+/// All elements have the first one's size: the caller's version of the struct.
 template <class C, class Cpp>
 std::span<const Cpp> read_list(Call& call, const Place& place, const C* given, std::size_t count,
                                std::vector<Cpp>& memory, Scratch& scratch) {
@@ -149,7 +149,7 @@ std::span<const Cpp> read_list(Call& call, const Place& place, const C* given, s
     return memory;
 }
 
-/// Writes as much of a struct as the caller's has.
+/// Writes a struct up to the end of the caller's version.
 template <class C>
 void give(const typename Of<C>::Cpp& value, C* given) noexcept {
     C full;
@@ -157,7 +157,7 @@ void give(const typename Of<C>::Cpp& value, C* given) noexcept {
     std::memcpy(&full.size, given, sizeof full.size);
     std::memcpy(static_cast<void*>(given), &full, std::min<std::size_t>(full.size, sizeof full));
 }
-/// A struct for the library to fill. The caller's is written by give() alone.
+/// A struct that the library fills; give() copies it to the caller's.
 template <class C>
 class Out {
   public:
@@ -171,12 +171,12 @@ class Out {
     C* given_;
 };
 
-/// Refuses by the struct's table.
+/// Checks a struct against its table.
 template <class Cpp>
 void check(Call& call, const Place& place, const Cpp& value) noexcept {
     if (!call.refused()) call.refuse(check_fields(call.operation(), value, place.name));
 }
-/// A call of the library, which may refuse it.
+/// Calls the library and notes its refusal, if any.
 template <class Body>
 void run(Call& call, Body&& body) {
     if constexpr (std::is_void_v<decltype(body())>)
@@ -191,7 +191,7 @@ const char* choice_name(const C& value, std::span<const char* const> names) noex
     return number < names.size() ? names[number] : "?";
 }
 
-/// Generated: tendril_check of a struct.
+/// Generated: tendril_check() for one struct.
 template <class C>
 void check_struct(Call& call, const void* object);
 
