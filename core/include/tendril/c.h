@@ -240,7 +240,7 @@ typedef enum tendril_ik_angle_from {
 } tendril_ik_angle_from;
 const char* tendril_ik_angle_from_name(tendril_ik_angle_from value); /* "base"; "?" for another number */
 
-/* How a chain is turned to face its pole. */
+/* How a solve turns a chain to face its pole. */
 typedef enum tendril_ik_pole_turn {
     TENDRIL_IK_POLE_TURN_WHOLE_CHAIN = 0,  /* all joints at once about the line from root to tip: smooth */
     /* every middle joint about the line between its neighbours; within limits as WholeChain */
@@ -348,7 +348,7 @@ typedef struct tendril_ik_active_limit {
     /* rad. The angle that would reach the target if only this joint were free, radians; if none does, the angle that
        brings the tip nearest */
     float needed;
-    int32_t enough;  /* whether freeing this joint alone lets the tip reach the target */
+    int32_t enough;  /* freeing this joint alone lets the tip reach the target */
 } tendril_ik_active_limit;
 TENDRIL_DEFAULT(tendril_ik_active_limit, TENDRIL_STRUCT_IK_ACTIVE_LIMIT)
 

@@ -1,6 +1,6 @@
 // Tables of the fields of settings and states: each field's name, unit and range, with nested structs, lists
-// and variants. Checks, files, commands, panels and exported code all read the same rows. So can an engine's
-// editor, to show settings that it knows nothing about:
+// and variants. Checks, files, commands, panels and exported code all read the same rows. An engine's editor
+// can use them too, to show settings that it knows nothing about:
 //
 //     for (const Field& field : fields<rope::Settings>())
 //         if (field.type == FieldType::Number && !field.count) slider(field.name, field.slider());
@@ -31,17 +31,17 @@ namespace tendril {
 
 enum class FieldType : std::uint8_t {
     Flag,     ///< 0 or 1
-    Integer,  ///< a whole number
+    Integer,  ///< an integer
     Number,
     Pair,      ///< two numbers, such as {low, high}
     Point,     ///< three numbers
     Rotation,  ///< a quaternion: x, y, z, w
     Choice,    ///< an index into `choices`
     Text,      ///< a std::string
-    Index,     ///< index of an element of the list `of`; files have its name
+    Index,     ///< index of an element of the list `of`; files store its name
     Struct,    ///< has a table of its own
     Kind,      ///< a std::variant of structs: an index into `choices`, and the table of the active struct
-    Other      ///< any other, such as a rig::Input; its functions are in `access`
+    Other      ///< any other type, such as a rig::Input; its functions are in `access`
 };
 
 /// A field of any type, as up to four numbers.
@@ -65,7 +65,7 @@ struct Field;
 /// A kind of struct that a field may hold.
 struct FieldKind {
     std::span<const Field> (*table)() noexcept;
-    const void* (*fresh)() noexcept;  ///< one with its default values
+    const void* (*fresh)() noexcept;  ///< creates one with default values
     std::string_view in_code;         ///< "tendril::rig::Aim"
 };
 
@@ -95,13 +95,13 @@ struct Field {
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
-    /// Whether the value is in the range of `row`, or empty.
+    /// True if the value is in the range of `row`, or empty.
     bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
     std::string_view (*text)(const void* object) noexcept = nullptr;
     void (*set_text)(void* object, std::string_view text) = nullptr;
     const FieldAccess* access = nullptr;
 
-    std::span<const FieldKind> kinds{};  ///< of a variant, by index; of a struct, its only one
+    std::span<const FieldKind> kinds{};  ///< a variant's, by index; a struct has one
     /// The address of a struct or other value (null while an optional one is empty), of a variant's active
     /// struct, or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
@@ -118,7 +118,7 @@ struct Field {
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
     std::uint16_t without_limits = 0xffff, within_limits = 0xffff;
 
-    /// How many numbers of a FieldValue are used.
+    /// Number of values used in a FieldValue.
     int size() const noexcept {
         return type == FieldType::Rotation ? 4
                : type == FieldType::Point  ? 3
@@ -132,7 +132,7 @@ struct Field {
     /// The table of a nested struct, and a struct with default values.
     std::span<const Field> table() const noexcept { return kinds[0].table(); }
     const void* fresh() const noexcept { return kinds[0].fresh(); }
-    /// Whether it is a struct of that type, or a list of such structs.
+    /// True if it is a struct of that type, or a list of such structs.
     template <class Struct>
     bool holds() const noexcept;
     /// False unless the field is optional.
@@ -192,7 +192,7 @@ struct Field {
         row.required = true;
         return row;
     }
-    /// Marks a name that files may omit.
+    /// Lets files omit a name.
     constexpr Field omissible() const noexcept {
         Field row = *this;
         row.optional = true;
@@ -212,8 +212,8 @@ struct Field {
     }
 };
 
-/// The table of a struct, in the order of its members; declared next to the struct. A struct without one does
-/// not compile here.
+/// The table of a struct, in the order of its members; declared next to the struct. Does not compile for a
+/// struct without a table.
 template <class Struct>
 std::span<const Field> fields() noexcept = delete;
 template <class Struct>
@@ -221,10 +221,10 @@ bool Field::holds() const noexcept {
     return type == FieldType::Struct && kinds[0].table == fields<Struct>;
 }
 
-/// Null for an unknown name.
+/// Finds a row by name; null if there is none.
 const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
 
-/// Refuses the first number of `object`, its structs and its lists that is out of range, and the first index
+/// Refuses the first number in `object`, its structs and its lists that is out of range, and the first index
 /// without an element. The message names `operation`, the field, its range and the value: "Body::solve:
 /// options.feet.left.lift must be ...", where `place` is "options". `object` is a struct of the table's type.
 Result check_fields(const char* operation, std::span<const Field> table, const void* object,
@@ -261,7 +261,7 @@ struct FieldPair<std::array<Value, 2>> : std::true_type {};
 template <>
 struct FieldPair<glm::dvec2> : std::true_type {};
 
-/// Whether a list's element is a struct with a table, and not a value.
+/// True if a list's elements are structs with a table, false if they are values.
 template <class Value>
 inline constexpr bool has_table =
     std::is_class_v<Value> && !std::is_same_v<Value, std::string> && !FieldOptional<Value>::value &&
@@ -327,7 +327,7 @@ inline void set_index(void* at, const FieldValue& given) noexcept {
     *static_cast<std::size_t*>(at) = number_from<std::size_t>(given[0]);
 }
 
-/// "tendril::ik::SketchHold"; empty if the compiler cannot tell.
+/// "tendril::ik::SketchHold"; empty if the compiler does not tell.
 template <class Value>
 constexpr std::string_view type_name() noexcept {
 #ifdef __GNUC__
@@ -348,7 +348,7 @@ const void* fresh() noexcept {
 template <class Value>
 inline constexpr FieldKind kind_of{fields<Value>, fresh<Value>, type_name<Value>()};
 
-/// The variant that a type is, or is derived from; for type deduction only.
+/// The variant that a type is or derives from; for type deduction only.
 template <class... Kinds>
 std::type_identity<std::variant<Kinds...>> variant_of(const std::variant<Kinds...>&);
 

@@ -1,6 +1,6 @@
 // The handle of an object that can be removed: the index of its slot, and a generation that counts how often
-// the slot was taken and freed. The handle of a removed object finds nothing, even if its slot is in use
-// again. Objects have no names; the program keeps its own.
+// the slot was taken and freed. The handle of a removed object finds nothing, even if its slot has been
+// reused. Objects have no names; the program keeps its own.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Handle {
     std::uint32_t index = none;
     std::uint32_t generation = 0;  ///< odd while the slot is in use
 
-    /// Whether it was ever issued. The object may have been removed since.
+    /// True if it was ever issued. The object may have been removed since.
     explicit operator bool() const noexcept { return index != none; }
     bool operator==(const Handle&) const = default;
 };

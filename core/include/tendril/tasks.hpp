@@ -9,14 +9,14 @@
 //     solve_many(batch, targets, reports, {.tasks = {run_on_jobs, &jobs}});
 //     workspace.use_threads(8, {run_on_jobs, &jobs});  // rope::Workspace
 //
-// Results never depend on it: any order of the tasks, on any number of threads, gives the same bits.
+// Results never depend on the choice: any order of the tasks, on any number of threads, gives the same bits.
 #pragma once
 
 #include <cstdint>
 
 namespace tendril {
 
-/// One task of a call. It must not throw, nor wait for a task that has not begun.
+/// One task of a call. It must not throw, or wait for a task that has not begun.
 using TaskFunction = void (*)(void* context, std::uint32_t index) noexcept;
 
 struct Tasks {

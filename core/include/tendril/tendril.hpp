@@ -1,8 +1,8 @@
 // The whole library. An engine usually includes only the headers that it calls; each stands on its own.
 //
-// Units. Metres, kilograms, seconds, radians, hertz. Amounts for people to read (an incident's, a finding's) come with
-// their unit beside them. Axes are right-handed with Y up. Chains reach along +X at rest; characters may face any way.
-// Quaternions are x, y, z, w in memory, as GLM has them unless told otherwise, and wherever they are written down.
+// Units. Metres, kilograms, seconds, radians, hertz. Amounts meant for people (in incidents and findings) have their
+// unit beside them. Axes are right-handed with Y up. Chains reach along +X at rest; characters may face any way.
+// Quaternions are x, y, z, w in GLM's default memory layout, and wherever they are written out.
 //
 // Precision. Chains and their solvers are float, accurate within 1e3 m of the origin. Particles of ropes, transforms of
 // rigs and characters, and filters are double. Colliders and the shapes that bodies are made from are float: within
@@ -21,20 +21,21 @@
 //
 // Threads. One object, one thread at a time; different objects never share anything. Feet, Hands, LookAt and rig::Rig
 // are immutable: many threads may share one. Body, BentChain, SpringChain, Batch and all solvers have scratch memory,
-// even where a call is const: one per thread. Large calls spread over threads themselves, yours or their own (tasks.hpp).
+// even where a call is const: one per thread. Large calls spread their work over threads, yours or their own
+// (tasks.hpp).
 //
-// Errors. Nothing throws, and all of it builds without exceptions and RTTI. There are two forms. A call that may be
-// refused returns a Result, or an Expected with the value; the message names the operation, the argument and its value.
-// A solve returns a report. A refused call changes nothing. Reading a value that is not there is a bug in the caller,
-// and ends the program with the message on stderr.
+// Errors. Nothing throws, and everything builds without exceptions and RTTI. A call that may be refused returns a
+// Result, or an Expected with the value; the message names the operation, the argument and its value. A solve returns a
+// report. A refused call changes nothing. Reading a value that is not there is a bug in the caller and ends the program
+// with the message on stderr.
 //
-// Memory. All of it comes from operator new: an engine that replaces that replaces it here too. Objects allocate when
-// they are made and edited. Solver::solve, the step of Feet, Hands, LookAt and SpringChain, and filters and springs
-// allocate nothing (a moving average does, until its window is full); World::advance, nothing once its workspace has
-// seen the world in its present shape.
+// Memory. All of it comes from operator new, so an engine can replace that. Objects allocate when they are made and
+// edited. Solver::solve, the step of Feet, Hands, LookAt and SpringChain, and filters and springs allocate nothing
+// (except a moving average until its window is full). Neither does World::advance once its workspace has seen the world
+// in its present shape.
 //
 // Bits. The same calls give the same bits with GCC, Clang and MinGW-w64, in debug and release, with every vector unit
-// and any number of threads. Exceptions are said where they are: ik/many.hpp beside ik/solver.hpp.
+// and any number of threads. Exceptions are noted where they occur: ik/many.hpp compared with ik/solver.hpp.
 //
 // Versions. Until 1.0 a minor version may rename things and change bits; core/CHANGELOG.md says which. Initialisers by
 // name, such as {.pole = elbow}, survive new members.

@@ -17,8 +17,8 @@
 //
 // Degenerate cases. If two points of a step coincide (squared distance under FLT_EPSILON, so closer than 0.35
 // mm), the step goes along default_direction(). A new segment whose position coincides with *any* point of
-// the chain has no direction of its own; it is placed as by the overload that takes only a length. So n
-// segments added at the same point make a straight chain, not a zigzag.
+// the chain has no direction of its own; it is placed as if only its length had been given. So n segments
+// added at the same point make a straight chain, not a zigzag.
 //
 // Errors: InvalidArgument for a number that is NaN, infinite or out of range, OutOfRange for a bad index; the
 // message names the operation, the argument and its value. Arguments are checked before anything changes: a
@@ -39,7 +39,7 @@
 
 namespace tendril {
 
-/// The four modes of a chain, for programs that let the user select one.
+/// The four modes of a chain, for programs that let the user choose.
 enum class Mode {
     Forward,   ///< the head moves to the target, the rest trails
     Backward,  ///< the tail moves to the target, the rest trails
@@ -47,7 +47,7 @@ enum class Mode {
     WithIndex  ///< a chosen segment moves to the target, both sides trail
 };
 
-/// When Chain::fixed stops.
+/// Stopping criteria of Chain::fixed.
 struct FixedOptions {
     int iterations = 1;       ///< maximum, 1 to 100 000
     float tolerance = 1e-5f;  ///< metres, 0 to 1e9: stops once the head is this close to the target

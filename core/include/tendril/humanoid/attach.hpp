@@ -31,12 +31,12 @@ struct LooseFoot {
 std::vector<LooseFoot> loose_feet(const Skeleton& skeleton, const BoneMap& map);
 
 /// The skeleton with the node moved below `to`; it stays where it is, at rest and in clips. Refuses a node
-/// that is above `to` or was moved already, and one that would be sheared there.
+/// that is above `to`, was moved already or would be sheared there.
 Expected<Skeleton> attached(const Skeleton& skeleton, std::size_t node, std::size_t to);
 /// The skeleton as it was before attached().
 Skeleton detached(const Skeleton& skeleton);
 
-/// Whether two placements are the same, to 1e-6 of the distance from the origin, and to 1e-3 in their axes.
+/// True if two placements are the same, to 1e-6 of the distance from the origin, and to 1e-3 in their axes.
 bool is_same_place(const Placement& a, const Placement& b) noexcept;
 
 }  // namespace tendril::humanoid

@@ -1,5 +1,5 @@
-// Whether a character would fall: its centre of mass, the polygon that its feet stand on, and the distance
-// between the two.
+// Balance of a character: its centre of mass, the polygon that its feet stand on, and the distance between
+// the two. It tells whether the character would fall.
 //
 //     Expected<Masses> masses = find_masses(skeleton, map);
 //     Expected<Soles> soles = find_soles(skeleton, map);
@@ -14,10 +14,11 @@
 // Support: each foot has six corners, two each at the heel, at the ball (both from Soles) and at the tip of
 // the toes, which is 0.07 of the leg's length ahead of the ball. The ball is 0.11 of that length wide, heel
 // and tip are 0.08 (R. Drillis and R. Contini, "Body segment parameters", 1966: a foot is 0.152 of the height
-// long and 0.055 wide, thigh and shin together are 0.491). A sole pitched by more than 60 degrees narrows, to
-// a point when it is vertical: from above it then has no direction.
+// long and 0.055 wide, thigh and shin together are 0.491). A sole pitched by more than 60 degrees narrows,
+// down to a point when vertical, because then it has no direction seen from above.
 //
-// A pose is not a motion: a walker or runner is out of balance for half of each step and does not fall.
+// This judges a pose, not a motion: a walker or runner is out of balance for half of each step and does not
+// fall.
 //
 // Cost: half a microsecond for both.
 #pragma once
@@ -64,7 +65,7 @@ struct Support {
     double margin(const glm::dvec3& point) const noexcept;
     /// The hull's point nearest to `point`, at `point`'s height; `point` itself if inside.
     glm::dvec3 nearest(const glm::dvec3& point) const noexcept;
-    /// Shrunk towards `middle`. `part`: 0 leaves the hull as it is, 1 leaves a point.
+    /// Shrinks the hull towards `middle`. `part`: 0 leaves it as it is, 1 leaves a point.
     Support shrunk(double part) const noexcept;
 };
 

@@ -34,7 +34,7 @@ class BentChain {
   public:
     static constexpr std::size_t max_points = 256;
 
-    /// The nodes from `first` down to `last`. Each turns but the last, which keeps its rotation relative to
+    /// The nodes from `first` down to `last`. All turn except the last, which keeps its rotation relative to
     /// its parent. Refuses nodes out of range, a `last` that is not below `first`, and a chain without any
     /// length at rest.
     static Expected<BentChain> make(const Skeleton& skeleton, std::size_t first, std::size_t last);
@@ -53,9 +53,9 @@ class BentChain {
     std::vector<glm::vec3> points_through(std::span<const rig::Transform> pose, std::size_t count) const;
 
     /// `pose` holds the local transforms of all nodes; the chain's are replaced. `points`: the control points
-    /// after the first node, 1 to max_points. The rest pose takes the place of `options.up`. `memory`, for
-    /// bones() bones, is only needed to report jumps. Status::InvalidInput for a pose, points or options that
-    /// are not finite or out of range: nothing has changed.
+    /// after the first node, 1 to max_points. The rest pose replaces `options.up`. `memory`, for bones()
+    /// bones, is only needed to report jumps. Status::InvalidInput for a pose, points or options that are not
+    /// finite or out of range; then nothing changes.
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                          const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept;
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,

@@ -6,8 +6,8 @@
 //     sample(clip, skeleton, seconds, pose);
 //     const Expected<BodyReport> report = body->solve(pose, targets, state);
 //
-// Of all poses that reach the targets, the solver looks for one close to the clip's. Each bone is weighted by
-// its mobility: the arm moves a hand before the spine helps, and the spine before the hips. If targets
+// Among the poses that reach the targets, the solver looks for one close to the clip's. Each bone is weighted
+// by its mobility: the arm moves a hand before the spine helps, and the spine before the hips. If targets
 // conflict, least squares share the residual by weight. Feet without a target stay where the clip has them; a
 // hand or the head without one moves with the body and keeps the clip's pose.
 //
@@ -18,18 +18,18 @@
 // The equations have one row per target coordinate, not one column per rotation. A joint at its limit loses
 // the direction that leads out of it (active set).
 //
-// A figure of any size takes the same pose, scaled, a mirrored one the mirrored pose, except for rounding.
-// The order of the targets does not matter.
+// Scaling a figure scales its pose, and mirroring it mirrors the pose, except for rounding. The order of the
+// targets does not matter.
 //
 // An almost straight limb would have to bend infinitely fast to follow a target that approaches at constant
 // speed. There the solver overestimates the bend slightly and stops up to 0.7 mm short (of a 1.8 m body), so
-// that elbows and knees move at most some 13 times as fast as the target.
+// that elbows and knees move at most about 13 times as fast as the target.
 //
 // FABRIK over layered chains is not used: it solves for positions and derives rotations afterwards, which
 // loses the twist, and it has to apply limits in every pass.
 //
 // Cost: an iteration of 22 bones and 5 targets takes 2 to 3 microseconds; following a target that moves by a
-// millimetre takes some 5 to 10 iterations. Measured by tests/bench/humanoid_body.cpp.
+// millimetre takes about 5 to 10 iterations. Measured by tests/bench/humanoid_body.cpp.
 #pragma once
 
 #include <array>
@@ -74,17 +74,17 @@ struct BodyOptions {
     /// A smaller step ends the solve: radians (for the hips metres of a figure of 1.8 m), over 0 to 1.
     double tolerance = 2e-6;
     bool feet_stay = true;  ///< feet without a target stay where the clip has them
-    /// Share of a hand's twist that the lower arm takes, 0 to 1. Twist nodes (twist.hpp) then spread it along
-    /// the arm.
+    /// Fraction of a hand's twist that the lower arm takes, 0 to 1. Twist nodes (twist.hpp) then spread it
+    /// along the arm.
     double twist_share = 0.5;
     bool self_collision = true;  ///< keep apart the capsules passed to Body::make
     /// Lets the pose relax towards the clip as if the targets had moved this far, metres, 0 to 1. For the
     /// frames after a target is released; without it the rest of the body would stay pulled.
     double settle = 0.0;
     /// Keeps the centre of mass (balance.hpp) over the standing feet: hips and trunk move so that it stays in
-    /// the support, while the targets are reached as nearly as that allows. Arms without a target are no
-    /// counterweight. The pose may be as far out of balance as the clip. No effect if find_soles() refuses
-    /// the legs.
+    /// the support, while the targets are reached as closely as that allows. Arms without a target do not act
+    /// as counterweights. The pose may be as far out of balance as the clip. No effect if find_soles()
+    /// refuses the legs.
     bool balance = false;
     /// Fraction of the support, from edge to middle, that the centre of mass keeps clear of: 0 to 0.9.
     double reserve = 0.25;
@@ -116,7 +116,7 @@ struct BodyReport {
     std::array<bool, bone_count> at_limit{};         ///< joints stopped by their limits
     double penetration = 0.0;                        ///< deepest overlap of two capsules, metres
     /// Metres by which the centre of mass leaves the safe part of the support although `balance` is on,
-    /// beyond the clip's own. Small but over 0 while targets hold it there.
+    /// beyond the clip's own distance. Small but over 0 while targets hold it there.
     double outside = 0.0;
 };
 

@@ -4,8 +4,8 @@
 // Rigify, 3ds Max's Biped, Acclaim, Motive and other captures. The other ignores names: it looks for a node
 // from which two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and
 // for a head above them. If both agree, the match is nearly certain; if they differ, or only one finds the
-// bone, the confidence is lower. Where a limb has as many nodes as the one on the other side, both have their
-// bones at the same nodes. Reasons are given in words.
+// bone, the confidence is lower. If the left and right limbs have equally many nodes, their bones are at the
+// same nodes. Reasons are given in words.
 //
 //     const BoneMap map = match_bones(skeleton);
 //     if (!map.is_usable()) ...  // map.missing lists the missing bones, or the map is not upright
@@ -54,9 +54,9 @@ inline constexpr std::size_t bone_count = 22;
 /// "LeftUpperArm"
 const char* name(Bone bone) noexcept;
 std::optional<Bone> bone_named(std::string_view name) noexcept;
-/// Whether solving a body needs this bone: true for fifteen bones.
+/// True for the fifteen bones without which a body cannot be solved.
 bool is_needed(Bone bone) noexcept;
-/// Swaps left and right: LeftHand for RightHand. A bone without a side is returned unchanged.
+/// Swaps left and right: LeftHand becomes RightHand. A bone without a side is returned unchanged.
 Bone mirrored(Bone bone) noexcept;
 
 struct BoneMatch {
@@ -66,7 +66,7 @@ struct BoneMatch {
     bool operator==(const BoneMatch&) const = default;
 };
 
-/// How the arms are held at rest. T: within 22.5 degrees of level. A: 22.5 to 67.5 degrees below level.
+/// Position of the arms at rest. T: within 22.5 degrees of level. A: 22.5 to 67.5 degrees below level.
 enum class RestPose : std::uint8_t { T, A, Other };
 const char* name(RestPose pose) noexcept;
 
@@ -76,7 +76,7 @@ struct BoneMap {
     bool upright = true;          ///< the rise from hips to head exceeds the horizontal distance
     RestPose rest = RestPose::Other;
 
-    /// Whether a body can be solved with it: upright, with a node for each needed bone, reviewed or not.
+    /// True if a body can be solved with it: upright, with a node for each needed bone, reviewed or not.
     bool is_usable() const noexcept;
     BoneMatch& operator[](Bone bone) noexcept { return bones[static_cast<std::size_t>(bone)]; }
     const BoneMatch& operator[](Bone bone) const noexcept { return bones[static_cast<std::size_t>(bone)]; }
@@ -88,10 +88,10 @@ BoneMap match_bones(const Skeleton& skeleton);
 /// Updates `missing`, `upright` and `rest` after `bones` has been edited.
 void review(BoneMap& map, const Skeleton& skeleton);
 
-/// Whether the map fits the skeleton. Refuses a node that is not in the skeleton, a node that is two bones,
-/// and a bone whose node is above the node of one of its parent bones: "bone map: LeftHand must be a node of
-/// the skeleton, got 77". Functions that take a map refuse what this refuses; those that cannot fail treat
-/// such a map as empty.
+/// Checks that the map fits the skeleton. Refuses a node that is not in the skeleton, a node that is two
+/// bones, and a bone whose node is above the node of one of its parent bones: "bone map: LeftHand must be a
+/// node of the skeleton, got 77". Functions that take a map refuse whatever this refuses; those that cannot
+/// fail treat such a map as empty.
 Result check(const BoneMap& map, const Skeleton& skeleton) noexcept;
 
 }  // namespace tendril::humanoid

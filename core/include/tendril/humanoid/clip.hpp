@@ -21,7 +21,7 @@
 
 namespace tendril::humanoid {
 
-/// How a track gets from one key to the next.
+/// Interpolation between a track's keys.
 enum class Interpolation : std::uint8_t {
     Step,  ///< keeps the key's value
     Linear,
@@ -76,14 +76,14 @@ struct Frames {
 };
 /// The clip at `rate` frames per second. If that is its own rate, every key is a frame: files round the time
 /// between frames, and 127 steps of 0.0333333 s are a little less than 127 thirtieths. A clip's own frames
-/// are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. Of two rates that
-/// differ by 0.1 %, as 30 and 29.97, the nearer one is its own.
+/// are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. If two rates
+/// differ by only 0.1 %, such as 30 and 29.97, the nearer one is the clip's own.
 Frames frames_at(const Clip& clip, double rate) noexcept;
-/// Times of keys, increasing, and the frames between the first and the last. A frame within 0.06 steps of a
-/// key is that key: a second call adds nothing.
+/// Merges increasing key times with the frames between the first and the last of them. A frame within 0.06
+/// steps of a key is that key: a second call adds nothing.
 std::vector<double> with_frames(const std::vector<double>& times, const Frames& frames);
 
-/// The key that gives the node its place in the pose: the pose's own transform, unless the node has a key
+/// The key that puts the node where it is in the pose: the pose's own transform, unless the node has a key
 /// space of its own.
 rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,
                       std::size_t node) noexcept;

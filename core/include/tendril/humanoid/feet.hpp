@@ -15,7 +15,7 @@
 //  2. A foot in stance (its sole low over the clip's own floor, and slow) is locked: its toe keeps its
 //     horizontal position. Locked or not, rays from above the ankle, down through heel and toe, find the
 //     ground. The foot turns by the mean of the two normals and keeps the clip's height over its floor,
-//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that brakes
+//     measured from the supported one of the two (on level ground, the higher hit). A foot that brakes to
 //     to land goes to a place where its whole sole has ground under it, or, where treads are too short for
 //     that, as much of it as fits. When a lock is released, its offset eases out. A foot in the air is lifted
 //     over the ground ahead, up to where it lands, early enough to rise steadily; it waits in front of a
@@ -40,7 +40,7 @@
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA
 // 2002 (planting, legs that are never quite straight).
 //
-// Cost: some 4 µs per character and step on flat ground and on stairs, 6 on a mesh. Allocates nothing.
+// Cost: about 4 µs per character and step on flat ground and on stairs, 6 on a mesh. Allocates nothing.
 #pragma once
 
 #include <memory>

@@ -13,8 +13,8 @@
 // steps under it, at most 0.9 of the leg's length from the other foot, and never across; the other one
 // follows if one step is not enough. Without targets, the feet step back to where the clip has them.
 //
-// Moving a hand at 1 m/s to a target within 1.9 m takes at most two steps in most cases and four in nearly
-// all.
+// Moving a hand at 1 m/s to a target within 1.9 m usually takes at most two steps, and almost never more than
+// four.
 //
 // Needs a clip that stands: while the clip lifts a foot, no step begins.
 //
@@ -47,9 +47,9 @@ struct Footstep {
 
 struct FootstepsState {
     std::array<Footstep, 2> feet{};  ///< left, right
-    /// Whether a foot is in the air.
+    /// True while a foot is in the air.
     bool stepping() const noexcept { return feet[0].part < 1.0 || feet[1].part < 1.0; }
-    /// Whether a foot is away from its place in the clip, or on its way there or back.
+    /// True if a foot is away from its place in the clip, or on its way there or back.
     bool away() const noexcept { return *this != FootstepsState(); }
     bool operator==(const FootstepsState&) const = default;
 };

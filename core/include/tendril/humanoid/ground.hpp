@@ -7,7 +7,7 @@
 // A plain value. Y is up, metres. Copying a mesh copies its triangles: pass one that many characters share by
 // reference.
 //
-// Cost of a ray: some 10 ns on flat ground, slopes and stairs, 30 on a terrain, 200 on a mesh of any size:
+// Cost of a ray: about 10 ns on flat ground, slopes and stairs, 30 on a terrain, 200 on a mesh of any size:
 // its triangles are sorted into a grid with about as many squares as triangles. Building it is linear.
 #pragma once
 

@@ -11,12 +11,12 @@
 // The weight blends position and rotation of the hand from the animation to the target; the arm is then
 // solved in closed form. The elbow stays on the side where the clip has it. Under a weight of 0.01 the hand
 // is off and the pose stays bit-identical; larger weights are rescaled to start from there, so nothing jumps.
-// A target that leaves or enters the cone of view eases off or on by a critically damped spring.
+// When a target leaves or enters the cone of view, a critically damped spring eases the hand off or on.
 //
 // A target moves only its own arm, and the shoulder (if mapped) as far as needed when the arm is too short.
 // It never moves the other hand.
 //
-// Cost: some 2 µs per hand and step. Allocates nothing.
+// Cost: about 2 µs per hand and step. Allocates nothing.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Hands that hold one thing: a wheel, a rifle, a box.
+// Hands that hold one object: a wheel, a rifle, a box.
 //
 //     const std::vector<Grip> grips{{Effector::LeftHand, {0.2, 0, 0}}, {Effector::RightHand, {-0.2, 0, 0}}};
 //     HoldState state;  // a value, kept from frame to frame, beside the body's
@@ -40,7 +40,7 @@ struct Grip {
     glm::dvec3 position{0.0};            ///< the hand's joint, metres
     /// Rotation of the hand's node. Unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
-    /// Axis about which the hand may turn in its grip, as round a bar. Not over 1e-9 long: none.
+    /// Axis about which the hand may turn in its grip, as around a bar. None if at most 1e-9 long.
     glm::dvec3 axis{0.0};
     bool operator==(const Grip&) const = default;
 };

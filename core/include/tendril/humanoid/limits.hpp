@@ -49,7 +49,7 @@ class BodyJoints {
 
     /// The nearest mapped bone above; none for the hips and for a bone that is not mapped.
     std::optional<Bone> parent(Bone bone) const noexcept;
-    /// Where the bone points in the T-pose, in the character's space; unit length.
+    /// Direction of the bone in the T-pose, in the character's space; unit length.
     const glm::dvec3& direction(Bone bone) const noexcept { return joint(bone).direction; }
     const ik::Limit& limit(Bone bone) const noexcept { return joint(bone).limit; }
     /// The rotation of the bone's node in the T-pose, in the character's space.

@@ -75,7 +75,7 @@ struct LintSettings {
     double floating = 0.025;  ///< metres that a standing foot may be above the floor
     double sinking = 0.02;    ///< metres that a foot may be below it
     double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames per second
-    double turn = 15.0;       ///< degrees that any other joint may jump, likewise
+    double turn = 15.0;       ///< maximum jump of any other joint in degrees, at 60 frames per second
     double shift = 0.02;      ///< maximum jump of positions, times the figure's height at rest
     /// Joint limits, owned by the caller. Null: the default limits with wide tolerances, which report only
     /// poses that no human clip should have, above all knees that bend the wrong way.
@@ -102,8 +102,8 @@ struct LintReport {
 };
 
 /// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within
-/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate outside 20 to 1000 (5 to
-/// 1000 if a track has a key at every frame and none is on a curve).
+/// 0.1 % of an integer. 60 if there are too few keys, or if they give a rate outside 20 to 1000 (5 to 1000 if
+/// a track has a key at every frame and none is on a curve).
 double frame_rate(const Clip& clip) noexcept;
 
 /// `clip` must have passed check().

@@ -6,11 +6,11 @@
 //     const LookAtReport report = look->step(pose, {.target = ball}, dt, state);
 //
 // Each bone from the spine up takes its share of the turn by rig::aim(), within its limit; the head takes the
-// rest. The turns are added to the clip's own movement: with a weight of 0 the pose stays bit-identical. A
-// target that leaves or enters the cone of view eases off or on by a critically damped spring, and the gaze
+// rest. The turns are added to the clip's own movement: with a weight of 0 the pose stays bit-identical. When
+// a target leaves or enters the cone of view, a critically damped spring eases the gaze off or on. The gaze
 // moves from one target to another no faster than `max_speed`.
 //
-// Cost: some 6 µs per step. Allocates nothing.
+// Cost: about 6 µs per step. Allocates nothing.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ struct LookAtOptions {
     double head_limit = 0.9;
 
     /// Half-angle of the view cone about the clip's gaze, by default 108 degrees; 0 to pi. If a target comes
-    /// back into view on the other side during the ease, the gaze goes to it by way of the clip's gaze.
+    /// back into view on the other side during the ease, the gaze moves to it through the clip's gaze.
     double view = 1.8849555921538759;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
     double max_speed = 8.0;  ///< radians per second; 1e-6 to 1e3

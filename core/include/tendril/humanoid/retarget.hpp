@@ -8,8 +8,8 @@
 // frame of its own character (facing()). The reference pose is the T-pose (t_pose.hpp) with hands, fingers
 // and feet straightened: the hand points along the arm, from the wrist to the middle finger, and the foot
 // points forward, from the ankle to the ball. So arms, hands and feet point in the same directions, whatever
-// the rest poses and the axes of the nodes are. Rotations are taken in the character's space, so the bones
-// that follow one that only the source has, such as a third one in the spine, include its turn; one that only
+// the rest poses and the axes of the nodes are. Rotations are taken in the character's space. If only the
+// source has a bone, such as a third one in the spine, the bones after it include its turn; a bone that only
 // the target has stays at rest. Fingers are matched by name. (VRM Consortium, "VRMC_vrm_animation-1.0", 2024,
 // does the same between T-poses.)
 //
@@ -31,7 +31,8 @@
 //
 // Feet turn relative to how they stand at rest, whatever the clip does later. If the source's rest pose does
 // not stand on level ground, such as a zero pose or a bind pose in mid-run, the standing pose is learned from
-// frames in which a foot carries a figure that neither sits nor lies; without any, t_pose() gives it.
+// frames in which a foot carries a figure that neither sits nor lies; if there are none, t_pose() provides
+// it.
 //
 // The target stands on its floor at rest, or on height 0 if its rest pose is far from its floor, as in many
 // BVH files.

@@ -25,7 +25,7 @@
 
 namespace tendril::humanoid {
 
-/// The space of a node's keys in clips, if it is not the parent's.
+/// The space of a node's keys in clips, if it differs from the parent's.
 struct KeySpace {
     std::int32_t parent = -1;  ///< index into the list; -1: the character's space
     rig::Transform rest{};     ///< rest transform of the node in this space
@@ -36,7 +36,8 @@ struct Node {
     std::string name{};        ///< unique, not empty
     std::int32_t parent = -1;  ///< index into the list; -1: a root
     rig::Transform rest{};     ///< local to the parent; metres
-    /// Set by attached(): the node has another parent than in its file, and the file's clips stay unchanged.
+    /// Set by attached(): the node's parent differs from the one in its file, and the file's clips stay
+    /// unchanged.
     std::optional<KeySpace> keys{};
     /// The parent to which the keys of clips are local.
     std::int32_t key_parent() const noexcept { return keys ? keys->parent : parent; }
@@ -62,7 +63,7 @@ class Skeleton {
     /// Children in the file's order.
     std::span<const std::int32_t> children(std::size_t node) const noexcept;
     std::optional<std::size_t> find(std::string_view name) const noexcept;
-    /// Whether `node` is `above` or one of its descendants.
+    /// True if `node` is `above` or one of its descendants.
     bool is_below(std::size_t node, std::size_t above) const noexcept;
     /// The nodes with a key space of their own.
     std::span<const std::size_t> moved() const noexcept { return moved_; }

@@ -6,14 +6,14 @@
 //     const SpringReport report = ear->step(pose, {.strength = 4.0}, dt, state);
 //
 // Method: the tip of each bone, where its child begins, is a mass on a damped spring attached to its position
-// in the pose, and the bone turns by the shortest arc towards the masses at its ends (the idea of VRM's
-// spring bones: VRM Consortium, "VRMC_springBone-1.0", 2022, which integrates bone after bone by Verlet's
-// method). Here the masses are independent of each other, so the swing of a long chain does not grow from
-// bone to bone. The springs are stiffer towards the base, so that a chain whose base accelerates bends like a
-// beam under its own weight (Euler and Bernoulli). Each step is the spring's closed form (signal/spring.hpp)
-// for a target that moves at constant velocity during the step, with damping relative to that motion: any dt
-// is stable, the frame rate makes little difference, and a chain follows uniform motion without lag and
-// swings only when its base accelerates or turns.
+// in the pose, and the bone turns by the shortest arc towards the masses at its ends (as VRM's spring bones
+// do: VRM Consortium, "VRMC_springBone-1.0", 2022, which integrates bone after bone by Verlet's method). Here
+// the masses are independent of each other, so the swing of a long chain does not grow from bone to bone. The
+// springs are stiffer towards the base, so that a chain whose base accelerates bends like a beam under its
+// own weight (Euler and Bernoulli). Each step is the spring's closed form (signal/spring.hpp) for a target
+// that moves at constant velocity during the step, with damping relative to that motion: any dt is stable,
+// the frame rate makes little difference, and a chain follows uniform motion without lag and swings only when
+// its base accelerates or turns.
 //
 // Colliders keep the tips out: a bone whose tip would be inside one turns about its base by the smallest
 // angle that brings the tip to the surface, and its mass stays there without speed into the collider. VRM
@@ -21,7 +21,7 @@
 //
 // Only rotations change, not lengths. With a weight of 0 the pose stays bit-identical.
 //
-// Cost: some 0.5 µs per bone, and 20 ns per bone and collider. Allocates only the state, in its first step.
+// Cost: about 0.5 µs per bone, and 20 ns per bone and collider. Allocates only the state, in its first step.
 #pragma once
 
 #include <memory>
@@ -85,9 +85,9 @@ class SpringChain {
 
     /// `pose` holds the local transforms of all nodes and is corrected in place. If dt is not over 0, no time
     /// passes and the masses stay where they are. The first step starts at rest, as does one with a state of
-    /// another size. `colliders`: capsules, or spheres where both ends are one point, in the space of the
+    /// another size. `colliders`: capsules, or spheres if both ends are one point, in the space of the
     /// masses. At weight 1 no tip is inside one, unless the bone is too short to reach the surface or
-    /// colliders overlap; the bones between the tips may be.
+    /// colliders overlap; the bones between the tips may be inside.
     SpringReport step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                       SpringChainState& state, std::span<const PlacedCapsule> colliders = {}) noexcept;
     /// Call it instead of step() when the pose or the position of the character jumps. Masses keep their

@@ -17,10 +17,10 @@ struct Facing {
 /// Derived from the mapped limbs; the defaults if neither arms nor legs are mapped on both sides.
 Facing facing(const Skeleton& skeleton, const BoneMap& map);
 
-/// Transforms local to the parents, like rest_pose(). Minimal rotations point upper and lower arms to their
-/// sides, and upper and lower legs down. A foot that could stand as it is at rest keeps its rest rotation;
-/// any other, as in a bind pose in mid-run, turns with its leg and then points like the other foot. A limb
-/// that is not mapped keeps its rest pose.
+/// Transforms local to the parents, like rest_pose(). Minimal rotations point the upper and lower arms to
+/// their sides, and the upper and lower legs down. A foot that could stand as it is at rest keeps its rest
+/// rotation; any other, as in a bind pose in mid-run, turns with its leg and then points like the other foot.
+/// A limb that is not mapped keeps its rest pose.
 std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& map);
 
 }  // namespace tendril::humanoid

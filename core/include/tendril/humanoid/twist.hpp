@@ -1,7 +1,7 @@
-// Spreads twist along the bones of the arms, as flesh does. Skin that follows two bones twisted against each
-// other collapses between them (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins, J. Zara,
-// C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on Graphics
-// 27(4), 2008).
+// Spreads twist along the bones of the arms, as flesh does. Without it, skin between two bones that are
+// twisted against each other collapses (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins,
+// J. Zara, C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on
+// Graphics 27(4), 2008).
 //
 //     for (const TwistBone& bone : twist_bones(skeleton, map)) ...  // the mapped upper and lower arms
 //     const BoneTwist twist = bone_twist(bone, turn, end_turn);     // from the turns at both its ends
@@ -13,7 +13,7 @@
 // along the lower arm; the upper arm's twist in the shoulder is spread along the upper arm.
 //
 // If a character has nodes for this (Unreal's lowerarm_twist_01_l), TwistNodes turns them; Body and Hands
-// call it. If not, the skinning has to spread the twist, as the program's does.
+// call it. Otherwise the skinning has to spread the twist, as the program does.
 #pragma once
 
 #include <span>
@@ -22,8 +22,8 @@
 
 namespace tendril::humanoid {
 
-/// The twist about a unit axis, of turn = swing * twist; radians, -pi to pi. It takes the short way, so it
-/// jumps between the ends of the range at half a turn. A swing of 180 degrees leaves the twist undefined: it
+/// The twist about a unit axis, where turn = swing * twist; radians, -pi to pi. It takes the short way, so it
+/// jumps between the ends of the range at half a turn. At a swing of 180 degrees the twist is undefined: it
 /// fades out from 160 degrees on and is 0 from 175.
 double twist_about(const glm::dvec3& axis, const glm::dquat& turn) noexcept;
 
@@ -39,10 +39,9 @@ struct TwistBone {
 /// The mapped upper and lower arms between two mapped bones.
 std::vector<TwistBone> twist_bones(const Skeleton& skeleton, const BoneMap& map);
 
-/// The twist of flesh about the bone, relative to the bone; radians.
+/// The twist of the flesh about the bone, relative to the bone; radians.
 struct BoneTwist {
-    double near = 0.0, far = 0.0;  ///< twist at its joint, where it undoes the bone's own, and at the next
-                                   ///< joint
+    double near = 0.0, far = 0.0;  ///< twist at its joint, cancelling the bone's own, and at the next
     double at(double part) const noexcept { return near + (far - near) * part; }
 };
 /// `turn` is the bone's rotation relative to its parent bone, in the bone's own frame; `end_turn` is the next

@@ -26,7 +26,7 @@ struct ActiveLimit {
     /// The angle that would reach the target if only this joint were free, radians; if none does, the angle
     /// that brings the tip nearest.
     float needed = 0.0f;
-    bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
+    bool enough = false;  ///< freeing this joint alone lets the tip reach the target
 
     bool operator==(const ActiveLimit&) const = default;
 };

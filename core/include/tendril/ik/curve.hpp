@@ -53,7 +53,7 @@ struct CurveOptions {
     /// `weights` multiplies it per bone, 0 to 1; empty: all 1.
     float weight = 1.0f;
     std::span<const float> weights{};
-    bool operator==(const CurveOptions& other) const noexcept;  ///< the same weights, not the same span
+    bool operator==(const CurveOptions& other) const noexcept;  ///< compares the weights, not the span
 };
 
 /// The joints' positions along the curve after the last call. Keep it with the joints; only needed to report

@@ -28,17 +28,17 @@ struct FlipRule {
     bool operator==(const FlipRule&) const = default;
 };
 
-/// How far something that may turn bones moved in a frame: a target, a control, a weight.
+/// Movement in one frame of an input that can turn bones: a target, a control, a weight.
 struct InputMove {
     double distance = 0.0;  ///< metres, relative to the bone's root
     double angle = 0.0;     ///< radians, of its direction as seen from there, 0 to pi
     double turn = 0.0;      ///< radians, about itself
     double share = 0.0;     ///< change of a number, as a fraction of its range
 };
-/// The move of a point; `from` and `to` are relative to the bone's root.
+/// Movement of a point; `from` and `to` are relative to the bone's root.
 InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;
-/// The rule itself, for chains, rigs and bodies: whether an input moved far enough to explain that a bone
-/// turned by `radians`. `reach`: of the chain, or the size of the skeleton; metres.
+/// The rule itself, for chains, rigs and bodies: true if an input moved far enough to explain that a bone
+/// turned by `radians`. `reach`: the chain's reach or the skeleton's size, metres.
 bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule = {}) noexcept;
 
 /// A chain in one frame: at least one joint; all finite. Metres, or any other unit throughout.
@@ -85,26 +85,26 @@ FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// Sum of the bones' lengths.
 float reach_of(const ReachPose& pose) noexcept;
-/// Whether the target passed within a fiftieth of the reach of the root.
+/// True if the target passed within a fiftieth of the reach of the root.
 bool went_through_root(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// How near the line from root to target came to the pole target, where the bend has no direction.
+/// Passage of the line from root to target by the pole target, where the bend has no direction.
 struct PolePassage {
     bool passed = false;  ///< the pole target changed sides
     bool close = false;   ///< in one of the poses the line is within 10 degrees of the pole target
 };
 PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// Whether the line from root to target swept past an axis of the space (in either direction) while there was
+/// True if the line from root to target swept past an axis of the space (in either direction) while there was
 /// no pole target. A solver that bends towards that axis, usually up, has no preferred side there.
 /// flip_cause() never returns PassedAxis, because Tendril's solvers do not bend towards an axis.
 bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// The largest distance of a joint from the line through the first and the last. Needs at least one joint.
 float bend_of(std::span<const glm::vec3> joints) noexcept;
-/// Whether the chain was nearly straight in either pose: bend_of() under a twentieth of the reach.
+/// True if the chain was nearly straight in either pose: bend_of() under a twentieth of the reach.
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
-/// The cause if it was: Straight, or Folded if the tip was within half the reach of the root.
+/// The cause if was_straight(): Straight, or Folded if the tip was within half the reach of the root.
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// Radians, 0 to pi; 0 if either has no length.

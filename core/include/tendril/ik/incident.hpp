@@ -146,7 +146,7 @@ class IncidentFinder {
     glm::vec3 within_reach(glm::vec3 target) const noexcept;  ///< clamped to the tip's reach, from the root
     /// The pose without the joints beyond the end effector.
     ReachPose reaching(const ReachPose& pose) const;
-    /// Whether the joint moved more than `times` as far as target and pole target did.
+    /// True if the joint moved more than `times` as far as target and pole target did.
     static bool outpaces_input(const ReachPose& before, const ReachPose& after, std::size_t joint,
                                float times) noexcept;
     void find_missed(const ReachPose& pose);
@@ -210,7 +210,7 @@ class IncidentFinder {
     RepeatRun repeat_;
     struct Repeat {
         ChainIncident incident{};
-        bool fault = false, rested = false;  ///< `rested`: the target stood still, too
+        bool fault = false, rested = false;  ///< `rested`: the target stood still as well
     };
     std::vector<Repeat> cadence_;  ///< evenly spaced runs, newest last
     /// Sums over frames, for fitting the tip's path to the target's path some frames earlier.
@@ -231,14 +231,15 @@ class IncidentFinder {
         std::array<double, max_lag + 1> left() const noexcept;
     };
     std::vector<glm::vec3> targets_, followers_;  ///< targets and tips relative to the root, newest last
-    /// Frames in which the tip may be late, and the squares of its distances to the targets before.
+    /// A run of frames in which the tip may be late, and by lag the sum of its squared distances to earlier
+    /// targets.
     struct Late {
         std::uint64_t first = 0, last = 0, frames = 0;
         std::array<double, max_lag + 1> squares{};
     };
     Late late_;
     std::vector<ChainIncident> lates_;
-    /// By lag: frames on a target that was elsewhere so long before.
+    /// By lag: number of frames with the tip on a target that was elsewhere that many frames before.
     std::array<std::uint64_t, max_lag + 1> prompt_{};
     std::array<Following, spans.size()> paths_{};
     glm::dvec3 origin_{0.0};

@@ -90,7 +90,7 @@ struct LinkPoint {
 
 enum class ClosureKind : std::uint8_t {
     Point,  ///< two points coincide
-    Frame   ///< and the links keep the relative rotation that they have as drawn
+    Frame   ///< two points coincide, and the links keep their relative rotation as drawn
 };
 
 /// Closes a loop: a point of one link coincides with a point of another. As drawn they may be apart.
@@ -103,7 +103,7 @@ struct Closure {
     bool operator==(const Closure&) const = default;
 };
 
-/// A linkage as drawn: a plain value.
+/// A linkage as drawn; a plain value.
 struct Linkage {
     std::vector<Link> links{};  ///< parents before children
     std::vector<LinkPoint> points{};
@@ -131,7 +131,7 @@ struct JointPlace {
     double last = 0.0;
     bool operator==(const JointPlace&) const = default;
 };
-/// All that a linkage keeps from frame to frame: one JointPlace per link.
+/// All state that a linkage keeps from frame to frame: one JointPlace per link.
 struct LinkageState {
     std::vector<JointPlace> joints{};
     bool operator==(const LinkageState&) const = default;
@@ -216,13 +216,13 @@ struct LinkPlace {
     glm::dvec3 point(const glm::dvec3& drawn) const noexcept;
 };
 
-/// Which of the assembly modes other_mode() takes.
+/// The assembly mode to which other_mode() switches.
 enum class OtherMode : std::uint8_t {
-    Next,    ///< the next in a fixed order: repeated calls take each in turn, and return to the first
-    Nearest  ///< the one whose joints differ least: next to a dead point, the mode that meets this one there
+    Next,    ///< the next in a fixed order: repeated calls visit all modes and return to the first
+    Nearest  ///< the mode whose joints differ least; next to a dead point, the one that meets this mode there
 };
 
-/// Solves one linkage. Holds its constants and scratch memory; everything that persists is in LinkageState.
+/// Solves one linkage. Holds its constants and scratch memory; persistent state is in LinkageState.
 class LinkageSolver {
   public:
     /// Fails if check() does.
@@ -232,7 +232,7 @@ class LinkageSolver {
     LinkageSolver& operator=(LinkageSolver&&) noexcept;
 
     const Linkage& linkage() const noexcept;
-    /// Whether all hinges turn about one direction, all sliders are perpendicular to it, and there are no
+    /// True if all hinges turn about one direction, all sliders are perpendicular to it, and there are no
     /// balls.
     bool planar() const noexcept;
     /// The largest extent of the linkage as drawn, metres. If drawn at one point, a slider's range, or 1.
@@ -240,7 +240,7 @@ class LinkageSolver {
     /// As drawn. It need not be closed: the first solve closes it.
     LinkageState initial_state() const;
 
-    /// Moves the state to the pose that meets the goals best. InvalidInput, changing nothing, for a state of
+    /// Moves the state to the pose that best meets the goals. InvalidInput, changing nothing, for a state of
     /// another linkage, a number that is not finite or out of range, a missing link or point, a driver of a
     /// ball, two drivers of one link, two targets of one point.
     ///
@@ -278,14 +278,14 @@ class LinkageSolver {
     glm::dvec3 joint(std::size_t link) const noexcept;
     glm::dvec3 axis(std::size_t link) const noexcept;
 
-    // Why the last solve missed its goals. Valid until the next one, or other_mode().
+    // Reasons why the last solve missed its goals. Valid until the next one, or other_mode().
 
     /// The distance of each target from its point, metres.
     std::span<const double> residuals() const noexcept;
     /// Links whose joints are pressed against the end of their range.
     std::span<const std::size_t> active() const noexcept;
-    /// All closures that are apart, if it ended Open or ran out of iterations. Which of them contradict each
-    /// other is not known.
+    /// All closures that are apart, if it ended Open or ran out of iterations. It is not known which of them
+    /// contradict each other.
     std::span<const std::size_t> open_closures() const noexcept;
 
   private:

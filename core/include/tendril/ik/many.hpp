@@ -7,8 +7,8 @@
 // Method: as Method::Fabrik, which is FABRIK (A. Aristidou, J. Lasenby, Graphical Models 73(5), 2011) with an
 // extra step that fits the root-tip span (core/src/ik/methods/accelerate.cpp). It uses the widest vector unit
 // of this machine, chosen by Highway at run time. A pass is bound by the latency of a square root and a
-// division, so several registers of chains take the same step side by side. Chains that take long are
-// gathered and solved together.
+// division, so several registers of chains take the same step side by side. Slow chains are gathered and
+// solved together.
 //
 // Results are bitwise equal to Solver's with Method::Fabrik, whatever the vector unit, the number of threads
 // and the other chains. Exceptions are targets out of reach or too close: solved in float where Solver uses
@@ -88,7 +88,7 @@ struct ManySummary {
     std::size_t invalid = 0;           ///< chains whose status is InvalidInput
     std::size_t scalar_fallbacks = 0;  ///< chains that the scalar solver took
     std::size_t first_invalid = 0;     ///< the first chain whose status is InvalidInput, if there is one
-    Result accepted{};                 ///< why it was refused, or all were
+    Result accepted{};                 ///< why that chain was refused, or all of them
     bool operator==(const ManySummary&) const = default;
 };
 

@@ -48,13 +48,12 @@ const char* name(Method method) noexcept;
 /// None for an unknown name.
 std::optional<Method> method_named(std::string_view name) noexcept;
 
-/// Whether a method takes a chain of this many bones: "Two-bone needs exactly two bones". (With a tip
+/// Refuses a number of bones that the method cannot take: "Two-bone needs exactly two bones". (With a tip
 /// orientation Solver::solve also takes three.)
 Result check_takes(Method method, std::size_t bones) noexcept;
 
-/// Whether the method honours the option, which is a row of fields<Options>():
-/// honours(Method::Ccd, field_of<&Options::damping>(), limited). `within_limits`: whether joint limits are
-/// set as well.
+/// True if the method honours the option, a row of fields<Options>(): honours(Method::Ccd,
+/// field_of<&Options::damping>(), limited). `within_limits`: joint limits are set as well.
 bool honours(Method method, const Field& option, bool within_limits) noexcept;
 
 }  // namespace tendril::ik

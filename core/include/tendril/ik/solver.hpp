@@ -4,7 +4,7 @@
 // n bones: the length of its head is not used.
 //
 // A Solver holds the constants of a chain (lengths, rest directions) and scratch memory, so make one per
-// chain and keep it. Whatever a solve needs from earlier ones is in the State, which the caller keeps with
+// chain and keep it. Anything a solve needs from earlier ones is in the State, which the caller keeps with
 // the joints. Solving does not allocate or throw, and gives the same bits for the same joints, state, target
 // and options, whatever the solver did before.
 //
@@ -68,7 +68,7 @@ class Solver {
                  Observer* observer = nullptr) noexcept;
 
     /// After a solve that ended Limited: the joint that stops the tip, that is, the one that brings the tip
-    /// nearest to the target if it alone is freed. `joints` and `state` as the solve left them. None if
+    /// nearest to the target if it alone is freed. Pass `joints` and `state` as the solve left them. None if
     /// freeing no single joint brings it nearer, or if the input is invalid. It tries the four joints whose
     /// limits stop most of the descent to the target.
     ///

@@ -20,23 +20,23 @@
 
 namespace tendril::ik {
 
-/// How the last solve with a pole left the chain, so that the next one can limit how fast the chain turns.
+/// Records how the last solve with a pole left the chain, so that the next one can limit how fast it turns.
 /// All positions are relative to the root, in metres, so the chain may be moved as a whole.
 struct PoleMemory {
-    bool valid = false;                    ///< whether the last solve had a pole; if not, the rest is unused
+    bool valid = false;                    ///< the last solve had a pole; otherwise the rest is unused
     PoleTurn turn = PoleTurn::WholeChain;  ///< how the chain was turned to face it
     glm::vec3 pole{0.0f};                  ///< metres
     glm::vec3 target{0.0f};                ///< metres
     float twist = 0.0f;                    ///< radians; Method::TwoBone only
-    std::vector<glm::vec3> joints{};       ///< metres, bones + 1: where the solve left them
+    std::vector<glm::vec3> joints{};       ///< metres, bones + 1: the joints after that solve
 
     bool operator==(const PoleMemory&) const = default;
 };
 
-/// How the last solve by Method::Fabrik within limits went, so that the next one can continue from there
-/// while the target is dragged (Options::restarts).
+/// Records how the last solve by Method::Fabrik within limits went, so that the next one can continue from
+/// there while the target is dragged (Options::restarts).
 struct LimitMemory {
-    bool valid = false;      ///< whether there was such a solve; if not, the rest is unused
+    bool valid = false;      ///< there was such a solve; otherwise the rest is unused
     bool limited = false;    ///< ended Limited or Stalled; the next stops at a step without gain
     glm::vec3 target{0.0f};  ///< metres from the root
     float damping = 0.0f;    ///< damping of its last least-squares step, in squares of the reach; 0 to 100
@@ -58,14 +58,14 @@ struct State {
     Side side = Side::Free;  ///< side on which the last solve left a chain in a plane; Free before the first
 
     std::size_t bones() const noexcept { return rotations.size(); }
-    /// Back to the initial state, for a chain that returns to its rest pose. Does not allocate.
+    /// Restores the initial state, for a chain that returns to its rest pose. Does not allocate.
     void reset() noexcept;
 
     bool operator==(const State&) const = default;
 };
 
-/// Whether a state fits a solver with this many bones: lists of the right size, unit quaternions (to 1e-3),
-/// finite numbers, limits.damping 0 to 100. For states that come from files. A solve checks sizes,
+/// Checks that a state fits a solver with this many bones: lists of the right size, unit quaternions (to
+/// 1e-3), finite numbers, limits.damping 0 to 100. For states that come from files. A solve checks sizes,
 /// quaternions and limits.damping itself, and the rest if pole.valid; it refuses a bad state with
 /// Status::InvalidInput.
 Result check(const State& state, std::size_t bones) noexcept;

@@ -11,11 +11,11 @@
 // model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
 //
 // From the third iteration on, a damped Gauss-Newton step follows each pair of passes, and is kept if it
-// brings the effectors nearer: of all moves that keep the lengths and bring the effectors to their targets,
-// both to first order, it takes the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a
-// tree its equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics
-// using Lagrange multipliers", SIGGRAPH 1996, does for forces). Without this step, reaching converges slowly
-// where branches share joints.
+// brings the effectors nearer. Among all moves that keep the lengths and bring the effectors to their
+// targets, both to first order, it is the one that moves the joints least (Levenberg 1944, Marquardt 1963).
+// On a tree its equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time
+// dynamics using Lagrange multipliers", SIGGRAPH 1996, does for forces). Without this step, reaching
+// converges slowly where branches share joints.
 //
 // A Tree holds the list of joints and scratch memory, but nothing of earlier solves: all that persists are
 // the joints' positions and, optionally, the bones' rotations, both owned by the caller.
