@@ -1,4 +1,4 @@
-// How the bones of a body are connected, and where they point in a T-pose. Not installed.
+// Connections between the bones of a body, and their directions in a T-pose. Not installed.
 #pragma once
 
 #include <optional>
@@ -29,11 +29,11 @@ inline std::optional<Bone> limb_child(Bone bone) noexcept {
     return std::nullopt;
 }
 
-/// How large a figure is at rest, 1 at a height of 1.8 m: hips to head plus a leg, which measure 1.45 m
+/// Size of a figure at rest, relative to a height of 1.8 m: hips to head plus a leg, which measure 1.45 m
 /// there. The leg is the mean of both, or the one that is mapped. 1 if none of these has a length.
 double size_of(const BoneMap& map, std::span<const Placement> rest) noexcept;
 
-/// Where a bone points in a T-pose.
+/// Direction of a bone in a T-pose.
 inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
     if (bone < Bone::LeftShoulder || bone > Bone::RightToes) return facing.up;
     if (bone <= Bone::LeftHand) return facing.left;
@@ -43,7 +43,7 @@ inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
     return -facing.up;
 }
 
-/// Whether a body keeps the first bone out of the second: hands and lower arms out of everything but their
+/// True if a body keeps the first bone out of the second: hands and lower arms out of everything but their
 /// own arm and the shoulders, lower legs out of each other.
 inline bool may_collide(Bone moving, Bone other) noexcept {
     switch (moving) {

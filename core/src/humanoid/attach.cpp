@@ -39,7 +39,7 @@ class LooseFootFinder {
 
   private:
     const glm::dvec3& at(std::size_t node) const { return places_[node].position; }
-    /// Prefers a foot that fits, then the one with more ancestors in common with the leg, then the nearest.
+    /// Prefers a foot that fits, then the one with more common ancestors with the leg, then the nearest.
     bool is_better(const LooseFoot& a, const LooseFoot& b) const {
         if (a.fits != b.fits) return a.fits;
         const std::size_t shared_a = shared(a.foot, a.leg), shared_b = shared(b.foot, b.leg);

@@ -129,8 +129,8 @@ double standing_at(double height, double leg) noexcept {
     return inside * inside * (3.0 - 2.0 * inside);
 }
 
-/// The sole's horizontal direction: unit length up to 60 degrees of pitch, then shrinking to zero for a
-/// vertical sole, where it reverses.
+/// The sole's horizontal direction. Its length is 1 up to 60 degrees of pitch and shrinks to 0 for a vertical
+/// sole, where the direction reverses.
 glm::dvec3 seen_from_above(const glm::dvec3& sole) noexcept {
     const glm::dvec3 level{sole.x, 0.0, sole.z};
     const double size = std::max(length(level), 0.5 * length(sole));
@@ -229,7 +229,7 @@ Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
         const glm::dvec3 centre = mix(other.heel, other.toe, 0.5);
         const glm::dvec3 ahead = seen_from_above(minus(at[side].toe, at[side].heel));
         const glm::dvec3 aside{ahead.z, 0.0, -ahead.x};
-        // The tip draws back as the toes lift, and as the foot tilts, which shortens `ahead`.
+        // The tip retracts as the toes lift, and as the foot tilts, which shortens `ahead`.
         const double part = support.standing[side] / most;
         const double toes = standing_at(over[side].toe, soles.leg) / std::max(support.standing[side], 1e-300);
         const glm::dvec3 tip = plus(own.toe, times(ahead, tip_part * soles.leg * std::min(toes, 1.0)));

@@ -62,7 +62,8 @@ struct BentChain::Plan {
                     const ik::CurveOptions& options, double factor) noexcept;
 };
 
-/// False if the chain has no length. A bone without length points like the one before it, or else the next.
+/// False if the chain has no length. A bone without length takes the direction of the previous one, or else
+/// of the next.
 bool BentChain::Plan::load_rest(const Skeleton& skeleton) {
     const std::vector<rig::Transform> pose = rest_pose(skeleton);
     if (!place_nodes(seen_from_points(parent(pose)), pose, placed)) return false;
@@ -163,7 +164,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
         lengths[i] = static_cast<float>(bone);
         reach += bone;
     }
-    // A point meant to be on the first joint may be off by rounding, which gives no direction.
+    // A point meant to be on the first joint may be off by rounding; it must not set a direction.
     const double nothing = 1e-6 * reach + 1e-7 * length(root);
     const std::span<glm::vec3> curve = std::span(points).first(given.size() + 1);
     curve[0] = glm::vec3(0.0f);
@@ -187,11 +188,11 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
     return report;
 }
 
-/// Turns the nodes as the solve turned the bones, then each by the shortest arc to where its bone should
-/// point: a pose may move a node within its parent, and a scale may shear it.
+/// Turns the nodes as the solve turned the bones, then each by the shortest arc to its bone's required
+/// direction: a pose may move a node within its parent, and a scale may shear it.
 void BentChain::Plan::pose_nodes(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
                                  const ik::CurveOptions& options, double factor) noexcept {
-    bool moved = false;  // bones before the first with a weight keep their bits
+    bool moved = false;  // bones before the first one with a weight keep their bits
     for (std::size_t i = 0; i < bones(); ++i) {
         rig::Transform& local = pose[nodes[i]];
         glm::dvec3& end = pose[nodes[i + 1]].translation;

@@ -17,7 +17,7 @@ using detail::Link;
 
 constexpr const char* effector_names[]{"hips", "head", "left_hand", "right_hand", "left_foot", "right_foot"};
 
-/// How readily a bone turns, relative to an upper arm.
+/// Mobility of a bone, relative to an upper arm.
 double mobility_of(Bone bone) noexcept {
     switch (bone) {
         case Bone::Hips:
@@ -36,7 +36,7 @@ double mobility_of(Bone bone) noexcept {
     }
 }
 
-/// How far a limb may stop short of full length, as a fraction of it: 0.7 mm for a leg of 0.85 m.
+/// Fraction of its full length by which a limb may stop short: 0.7 mm for a leg of 0.85 m.
 constexpr double slack_part = 0.0008;
 
 /// The link of a bone; -1: the body lacks the bone.
@@ -58,7 +58,7 @@ Result check_targets(std::span<const BodyTarget> targets) noexcept {
                            effector_names[index]);
         seen |= 1u << index;
         char place[] = "targets[0]";
-        place[8] = static_cast<char>('0' + i);  // no effector comes twice, so at most 6
+        place[8] = static_cast<char>('0' + i);  // each effector occurs once, so at most 6
         if (const Result bad = check_fields("Body::solve", target, place); !bad) return bad;
     }
     return {};

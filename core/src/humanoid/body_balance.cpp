@@ -47,7 +47,7 @@ std::optional<std::size_t> BodySolve::side_of(const Goal& goal) noexcept {
 }
 
 /// The foot as turn_ends() will turn it, if its parent bone is rotated by `above`. The ankle's limit may tilt
-/// a foot that stays: then it rolls over the ball or the heel, whichever would sink into the ground, and its
+/// a foot that stays. It then rolls over the ball or the heel, whichever would sink into the ground, and its
 /// goal moves along.
 BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
                                         const glm::dquat& above) const noexcept {
@@ -58,7 +58,7 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
     const glm::dquat turn = math::compose(math::compose(above, link.turn), conjugate(link.start));
     const SolePoints& clip = clip_soles_[side];
     const glm::dvec3& was = work_.placements[link.node].position;
-    if (goal.target) {  // the target may be out of reach: the foot supports where it is
+    if (goal.target) {  // the target may be out of reach: the foot supports from its actual position
         place.sole = moved_sole(clip, was, link.position, turn);
         return place;
     }
@@ -80,8 +80,8 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
     return place;
 }
 
-/// The safe part of the support. A foot in the middle of a step supports as if it were not lifted. If a foot
-/// has a target, heights are measured over the ground, because the target may take the foot anywhere.
+/// The safe part of the support. A foot in the middle of a step supports as if it were on the ground. If a
+/// foot has a target, heights are measured over the ground, because the target may take the foot anywhere.
 Support BodySolve::safe_support(const std::array<SolePoints, 2>& soles,
                                 const std::array<SoleHeights, 2>& over) const noexcept {
     return find_support(*work_.soles, soles, foot_target_ ? sole_heights(soles, options_.ground) : over)
@@ -136,7 +136,8 @@ double BodySolve::measure_balance() noexcept {
     return 0.5 * balance_weight * outside_ * outside_;
 }
 
-/// Finds mass_arms_, from the mass that each link's turn moves. A limb without a goal is no counterweight.
+/// Finds mass_arms_, from the mass that each link's turn moves. A limb without a goal is not used as a
+/// counterweight.
 void BodySolve::find_mass_arms() noexcept {
     std::array<double, bone_count> mass{};
     std::array<glm::dvec3, bone_count> moment{};
@@ -180,8 +181,8 @@ void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
 }
 
 /// The support moves with the feet: a foot that follows a target moves its part along, and one that rolls
-/// lifts its heel or its toes off the ground. Adds to the balance row how this moves, along `out`, the point
-/// of the safe part nearest to the centre of mass.
+/// lifts its heel or its toes off the ground. Adds this effect to the balance row: how far it moves, along
+/// `out`, the point of the safe part nearest to the centre of mass.
 void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
                                     const glm::dvec3& out) noexcept {
     constexpr double step = 1e-3;  // radians, and leg lengths
@@ -198,7 +199,7 @@ void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
     };
     glm::dvec3 by_move{0.0}, by_turn{0.0};
     const double distance = step * work_.soles->leg;
-    // A mirrored foot is tried the mirrored way.
+    // Mirror the trial steps for a mirrored foot.
     const glm::dvec3 &ahead = work_.soles->forward, left{ahead.z, 0.0, -ahead.x}, up{0.0, 1.0, 0.0};
     const double sign = side == 0 ? 1.0 : -1.0;
     for (const glm::dvec3& axis : {left, times(up, sign), times(ahead, sign)}) {

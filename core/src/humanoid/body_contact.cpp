@@ -1,4 +1,4 @@
-// A body's capsules in its solve: which are near each other, and the equations of those that touch.
+// A body's capsules in its solve: finding those near each other, and the equations of those that touch.
 #include <algorithm>
 
 #include "humanoid/body_solve.hpp"

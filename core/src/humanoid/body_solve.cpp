@@ -14,7 +14,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// The rotation that a target asks of its bone, blended by its weight with the rotation without it.
+/// The bone's rotation for a target, blended by the target's weight with the rotation without it.
 glm::dquat target_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
     return rig::blend(without, whole, target.weight);
@@ -56,7 +56,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
         const double part = std::min(1.0, max_step_turn / step), travelled = travel();
         apply(part);
         const double next = measure();
-        // The turn back is exact only to first order: its square may cost as much.
+        // The turn back is exact only to first order, so it may cost as much as its square.
         if (next <= cost + size * size * relaxation_ * relaxation_ * relaxation_ * relaxation_) {
             if (const double now = travel(); now > limit) {
                 cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
@@ -105,8 +105,8 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     return result;
 }
 
-/// Writes the solution to the pose. False, with the pose unchanged, if it is not finite: bone lengths near
-/// the largest or smallest double lose all their digits.
+/// Writes the solution to the pose. Returns false and leaves the pose unchanged if it is not finite: bone
+/// lengths near the largest or smallest double lose all their digits.
 bool BodySolve::write_pose(std::span<rig::Transform> pose) noexcept {
     std::array<rig::Transform, bone_count> before;
     for (std::size_t i = 0; i < work_.links.size(); ++i) before[i] = pose[work_.links[i].node];
@@ -145,7 +145,7 @@ double BodySolve::goals_moved(const BodyState& state) const noexcept {
         const double before = state.weights[e], now = weights[e];
         if (before > 0.0) change = std::max(change, std::abs(now - before) / std::max(now, before));
     }
-    largest = std::max(largest, change * error);  // conflicting targets share the residual differently now
+    largest = std::max(largest, change * error);  // conflicting targets now share the residual differently
     if (state.turns.empty()) return largest;
     for (std::size_t e = 0; e < effector_count; ++e)
         largest = std::max(largest, length(minus(clip_[e], state.clip[e])));
@@ -171,7 +171,7 @@ void BodySolve::set_goals() noexcept {
             if (each.end == work_.ends[index]) limb = &each;
         goals_[count_++] = {index, position, weight, target, limb};
     };
-    for (std::size_t e = 0; e < effector_count; ++e) {  // the order of the targets does not matter
+    for (std::size_t e = 0; e < effector_count; ++e) {  // independent of the order of the targets
         const auto effector = static_cast<Effector>(e);
         const auto target = std::ranges::find(targets_, effector, &BodyTarget::effector);
         if (target != targets_.end() && target->weight > 0.0) {

@@ -70,15 +70,15 @@ class BodySolve {
 
     void set_goals() noexcept;
     void start(std::span<const rig::Transform> pose, const BodyState& state) noexcept;
-    /// Updates links, limbs, goals and contacts; returns half the weighted sum of squared errors.
+    /// Updates links, limbs, goals and contacts. Returns half the weighted sum of squared errors.
     double measure() noexcept;
     Link& end_of(std::size_t effector) const noexcept {
         return work_.links[static_cast<std::size_t>(work_.ends[effector])];
     }
-    /// How far the goals have moved since the last solve, metres. Includes contacts, the clip's pose, and the
-    /// move that a change of weights can cause.
+    /// Distance that the goals have moved since the last solve, metres. Includes contacts, the clip's pose,
+    /// and the movement that a change of weights can cause.
     double goals_moved(const BodyState& state) const noexcept;
-    /// The maximum distance that a joint or tip has moved in this solve, metres.
+    /// Maximum distance that a joint or tip has moved in this solve, metres.
     double travel() const noexcept;
     void cut_to(double limit, double part) noexcept;
     void find_step(double damping, const Relaxation& relaxation) noexcept;
@@ -119,7 +119,7 @@ class BodySolve {
     bool has_rotations() const noexcept;
     void turn_ends() noexcept;
     bool write_pose(std::span<rig::Transform> pose) noexcept;
-    /// The rotation that a goal asks of its bone, before the limit.
+    /// The rotation that a goal requires of its bone, before clamping to the limit.
     glm::dquat rotation_of_end(const Goal& goal, const Link& link) const noexcept;
     void turn_end(const Goal& goal) noexcept;
     void report(std::span<const rig::Transform> pose, BodyReport& report) noexcept;

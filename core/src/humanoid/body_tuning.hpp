@@ -1,6 +1,6 @@
 // The constants of a body's solve, tuned by trial on real characters. The behaviour that each protects is
 // tested in tests/core/humanoid_body*_test.cpp and humanoid_contact_test.cpp. All are per solve, not per
-// second: a solve belongs to a frame. Metres are those of a figure of 1.8 m: a solve scales them by
+// second, because there is one solve per frame. Metres are for a figure of 1.8 m: a solve scales them by
 // Body::Work::size. Not installed.
 #pragma once
 
@@ -21,11 +21,11 @@ inline constexpr double released_contact_weight = 1e-9;
 
 // The step: damped least squares.
 
-/// How easily the hips move: square metres, relative to the square radians of an upper arm.
+/// Mobility of the hips: square metres, relative to the square radians of an upper arm.
 inline constexpr double hips_mobility = 0.004;
-/// A step ignores capsules that are farther apart than this, metres.
+/// A step ignores capsules that are further apart than this, metres.
 inline constexpr double contact_range = 0.15;
-/// A residual that does not shrink straightens a limb. That is a stiffness: the second derivative, which
+/// Stiffness of a limb that is straightened by a residual that does not shrink: the second derivative, which
 /// Gauss-Newton drops. More than 1, because the joints of a limb turn together.
 inline constexpr double residual_stiffness = 2.0;
 /// Maximum changes of the active set, limits and contacts, per step.
@@ -51,14 +51,14 @@ inline constexpr double relaxation_per_metre = 3.0;
 /// The largest share of the way back to the clip's pose that a step takes. Halved by a step that fails,
 /// doubled by one that succeeds.
 inline constexpr double max_relaxed_share = 0.5;
-/// Above this damping the targets come first and relaxation shrinks in proportion.
+/// Above this damping the targets have priority and relaxation shrinks in proportion.
 inline constexpr double relaxing_damping = 1e-3;
 
 // The speed limit: joints travel only so far in a solve.
 
 /// Maximum travel, metres per metre that the goals have moved since the last solve.
 inline constexpr double travel_per_metre = 12.0;
-/// Share of the limit that the next solve keeps: it may have to catch up.
+/// Fraction of the limit that the next solve keeps: it may have to catch up.
 inline constexpr double travel_kept = 0.5;
 inline constexpr double max_travel = 3.0;  ///< metres
 /// A step cut to the limit may exceed it by this factor.
@@ -88,7 +88,7 @@ class TrustRegion {
     double lambda_ = first_lambda;
 };
 
-/// How far the next step may turn joints back towards the clip's pose.
+/// Limits how far the next step may turn joints back towards the clip's pose.
 class Relaxation {
   public:
     explicit Relaxation(double goals_moved) noexcept : budget_(relaxation_per_metre * goals_moved) {}
@@ -97,7 +97,7 @@ class Relaxation {
         const double fits = relaxing_damping / damping;
         return share_ * (fits < 1.0 ? fits : 1.0);
     }
-    double budget() const noexcept { return budget_; }  ///< radians that are left
+    double budget() const noexcept { return budget_; }  ///< remaining radians
     void succeeded(double turned) noexcept {
         budget_ = budget_ - turned > 0.0 ? budget_ - turned : 0.0;
         share_ = share_ * 2.0 < max_relaxed_share ? share_ * 2.0 : max_relaxed_share;

@@ -21,7 +21,7 @@ struct Link {
     Bone bone;
     std::size_t node;
     int parent;                           ///< a link; -1 for the hips
-    double mobility;                      ///< how readily it turns; an upper arm: 1
+    double mobility;                      ///< 1 for an upper arm
     unsigned effectors;                   ///< a bit for each effector that its turn moves
     glm::dquat rest;                      ///< the node's rotation in the T-pose
     glm::dvec3 hinge;                     ///< unit axis; zero: no hinge
@@ -55,7 +55,7 @@ struct BodyLimb {
         const double value = angle * (linear - quadratic * angle);
         return angle > 0.0 && value > 0.0 ? value : 0.0;
     }
-    /// Rounding may turn a straight limb the other way, but does not decide whether it bends.
+    /// Rounding may bend a straight limb slightly backwards; that counts as straight.
     double slope(double angle) const noexcept {
         constexpr double straight_turn = 1e-9;  // radians
         return angle > -straight_turn && quadratic * angle < linear ? linear - 2.0 * quadratic * angle : 0.0;

@@ -27,10 +27,10 @@ constexpr const char* names[bone_count]{
 
 using Nodes = std::array<std::int32_t, bone_count>;
 
-/// Finds bones by name, one after the other; those already found restrict where the next may be.
+/// Finds bones by name, one after another; those already found restrict the search for the next.
 class Names {
   public:
-    /// Where names give no hips or head, takes them from the shape to find the spine.
+    /// If the names give no hips or head, takes them from the shape to find the spine.
     Names(const Skeleton& skeleton, const ShapeReading& shape)
         : skeleton_(skeleton), readings_(skeleton.size()) {
         const std::string ignored = detail::common_word(skeleton);
@@ -94,8 +94,8 @@ class Names {
                 return first_of_split(each);
         return -1;
     }
-    /// The first piece of a split limb bone: upperarm01, above upperarm02. "arm 1, arm 2" may be the two
-    /// bones of an arm.
+    /// The first part of a split limb bone: upperarm01, above upperarm02. "arm 1, arm 2" may be the two bones
+    /// of an arm.
     std::int32_t first_of_split(std::int32_t node) const {
         const Part part = reading(node).part;
         if (part == Part::Arm || part == Part::Leg || part == Part::ShoulderArm) return node;
@@ -107,8 +107,8 @@ class Names {
             node = next;
         return node;
     }
-    /// The first such node from the root down with one of `parts` above it, preferably beside or below the
-    /// hips, since a file may have several rigs.
+    /// The first node from the root down with this part and side, and one of `parts` above it. Prefers nodes
+    /// beside or below the hips, since a file may have several rigs.
     std::int32_t leg_node(Part part, Side side, std::initializer_list<Part> parts) const {
         const std::int32_t hips = at(Bone::Hips);
         for (const std::int32_t around : {hips >= 0 ? parent(hips) : -1, -1})
@@ -132,7 +132,7 @@ class Names {
         if (upper >= 0) set(shoulder, above(upper, side, {Part::Shoulder, Part::ShoulderArm}));
 
         // Legs may be siblings of the node named hips. A foot without a leg above it, as in IK rigs, counts
-        // only once attached() (attach.hpp).
+        // only once attached() has moved it (attach.hpp).
         const std::int32_t foot = leg_node(Part::Foot, side, {Part::LowerLeg, Part::Leg});
         lower =
             foot >= 0 ? above(foot, side, {Part::LowerLeg, Part::Leg}) : leg_node(Part::LowerLeg, side, {});
@@ -145,7 +145,7 @@ class Names {
         if (foot >= 0) set(next(upper_leg, 3), topmost(Part::Toes, side, foot));
     }
     /// A node named hips may be the first of the spine, with the legs beside it. The body's hips are then the
-    /// node above both, unless it is a thigh's length or more from the legs, like a root on the floor.
+    /// node above both, unless it is at least a thigh's length from the legs, like a root on the floor.
     void raise_hips() {
         const std::int32_t left = at(Bone::LeftUpperLeg), right = at(Bone::RightUpperLeg);
         const std::int32_t knee = at(Bone::LeftLowerLeg), named = at(Bone::Hips);
@@ -181,7 +181,7 @@ class Names {
         if (spine.size() > 2) set(Bone::UpperChest, spine.back());
     }
 
-    /// Rigify names its neck "spine", too.
+    /// True if the arms branch off below the node. Rigify names its neck "spine" too.
     bool arms_below(std::int32_t node) const {
         const std::int32_t arm = at(Bone::LeftUpperArm);
         return arm < 0 || below(arm, node);
@@ -200,7 +200,7 @@ std::string named(const Skeleton& skeleton, std::int32_t node) {
 // Confidences rank the evidence: chosen, not measured.
 constexpr double by_shape_alone = 0.6, contradicted = 0.65, by_name_alone = 0.8, agreed = 0.98;
 
-/// Combines the answers of both readers for a bone.
+/// Combines the answers of both readers for one bone.
 BoneMatch combine_matches(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
     BoneMatch match;
     if (by_name < 0 && by_shape < 0) return match;
@@ -222,7 +222,7 @@ BoneMatch combine_matches(const Skeleton& skeleton, std::int32_t by_name, std::i
     return match;
 }
 
-/// If palm bones begin side by side at the wrist, the one with the middle finger is the hand.
+/// If palm bones start side by side at the wrist, the one with the middle finger is the hand.
 std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
     const auto node = [&](std::int32_t i) -> const Node& { return skeleton[static_cast<std::size_t>(i)]; };
     if (hand < 0 || node(hand).parent < 0 || !detail::is_palm_name(node(hand).name)) return hand;
@@ -252,8 +252,8 @@ std::array<Path, 2> limb_paths(const Skeleton& skeleton, std::int32_t a, std::in
     return paths;
 }
 
-/// Limbs with equally many nodes on both sides get their bones at the same nodes. Where they differ, the side
-/// that agrees more with the shape wins.
+/// Gives limbs with equally many nodes on both sides their bones at the same nodes. If the sides differ, the
+/// one that agrees more with the shape wins.
 void mirror_limbs(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
     constexpr std::size_t bones = 4;
     for (const Bone first : {Bone::LeftShoulder, Bone::LeftUpperLeg}) {
@@ -277,7 +277,7 @@ void mirror_limbs(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& 
             const auto at = static_cast<std::size_t>(
                 std::find(path.begin(), path.end(), map[bone(from, i)].node) - path.begin());
             BoneMatch& match = map[bone(1 - from, i)];
-            if (at == path.size() || match.node == paths[1 - from][at]) return;  // a loose foot is on neither
+            if (at == path.size() || match.node == paths[1 - from][at]) return;  // loose feet are in neither
             match = {paths[1 - from][at], contradicted, "as "};
             match.reasons += skeleton[static_cast<std::size_t>(path[at])].name + " on the other side";
         };
@@ -295,14 +295,14 @@ void mirror_limbs(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& 
                 mirror(1 - better, i);
         }
     }
-    // Where two bones share a node, the one with the higher confidence keeps it.
+    // If two bones share a node, the one with the higher confidence keeps it.
     for (BoneMatch& match : map.bones)
         for (BoneMatch& other : map.bones)
             if (&match != &other && match.node >= 0 && match.node == other.node)
                 (match.confidence < other.confidence ? match : other) = {};
 }
 
-/// The shape alone cannot tell left from right if the feet point nowhere; names can.
+/// The shape alone cannot tell left from right if the feet have no direction; names can.
 void swap_sides(ShapeReading& shape) {
     for (std::size_t i = 0; i < bone_count; ++i) {
         const auto bone = static_cast<Bone>(i);

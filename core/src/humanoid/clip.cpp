@@ -83,8 +83,8 @@ glm::dquat finished(const glm::dquat& value) noexcept {
     return rig::normalised(value);
 }
 
-/// The first key that is after `time` by more than the float rounding of key times and the clip's duration:
-/// without that margin a step would come a frame late.
+/// The first key that is after `time` by more than the float rounding of key times and of the clip's
+/// duration. Without that margin a step would come a frame late.
 std::size_t next_key(const std::vector<double>& times, double time) noexcept {
     constexpr double rounded = 2.0 * std::numeric_limits<float>::epsilon();
     return static_cast<std::size_t>(
@@ -174,8 +174,8 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
 
 namespace {
 
-/// How far a key's time may be off its frame, as a fraction of a step: files round times. Three decimals of a
-/// sixtieth of a second are off by 0.03.
+/// Maximum distance of a key's time from its frame, as a fraction of a step: files round times. Three
+/// decimals of a sixtieth of a second are off by 0.03.
 constexpr double rounded_frame = 0.06;
 
 /// Key times of the track with the most keys; null if no track has two.
@@ -202,7 +202,7 @@ std::optional<Frames> own_frames(const Clip& clip) noexcept {
     return Frames{.count = own->size(), .step = step};
 }
 
-/// The exact rate for a rate that a file has rounded: the nearest whole number, or 1000/1001 of one as in
+/// The exact rate for a rate that a file has rounded: the nearest integer, or 1000/1001 of one as in
 /// television (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
 double snap_rate(double rate) noexcept {
     constexpr double television = 1000.0 / 1001.0;
@@ -220,7 +220,7 @@ bool has_curves(const Clip& clip) noexcept {
 }
 
 /// The mean of the steps that are about as long as the median one: missing keys make some longer, keys
-/// between frames some shorter. 0 with fewer than two keys.
+/// between frames some shorter. 0 for fewer than two keys.
 double usual_step(const Clip& clip) {
     const std::vector<double>* const densest = densest_times(clip);
     if (!densest) return 0.0;

@@ -23,7 +23,7 @@ glm::dvec3 way(const BoneMap& map, std::span<const Placement> rest, Bone from, B
     return minus(rest[static_cast<std::size_t>(b)].position, rest[static_cast<std::size_t>(a)].position);
 }
 
-/// Whether the feet clearly point backwards: an ankle slightly in front of its toe tip is not enough.
+/// True if the feet clearly point backwards: an ankle slightly in front of its toe tip is not enough.
 bool feet_point_back(const Skeleton& skeleton, const BoneMap& map, std::span<const Placement> rest,
                      const glm::dvec3& forward) {
     double ahead = 0.0, leg = 0.0;

@@ -1,4 +1,4 @@
-// Which way a character faces, and where its feet end. Not installed.
+// The direction that a character faces, and the ends of its feet. Not installed.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ namespace tendril::humanoid::detail {
 std::optional<Facing> find_facing(const Skeleton& skeleton, const BoneMap& map,
                                   std::span<const Placement> rest);
 
-/// The node below `node` that is farthest from it horizontally: for a foot, the tip of the toes. `node`
-/// itself if there is none.
+/// The node below `node` with the largest horizontal distance from it: for a foot, the tip of the toes.
+/// Returns `node` if there is none.
 std::size_t farthest_below(const Skeleton& skeleton, std::span<const Placement> rest, std::size_t node);
 
 }  // namespace tendril::humanoid::detail

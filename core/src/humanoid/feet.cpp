@@ -14,7 +14,7 @@ constexpr Bone upper_legs[]{Bone::LeftUpperLeg, Bone::RightUpperLeg},
     lower_legs[]{Bone::LeftLowerLeg, Bone::RightLowerLeg};
 
 /// Points spread evenly over a disc (H. Vogel, "A better way to construct the sunflower head", Mathematical
-/// Biosciences 44, 1979): no two of them cross an edge at once, whichever way the character walks.
+/// Biosciences 44, 1979): no two of them cross an edge at once, in whichever direction the character walks.
 template <std::size_t count>
 std::array<glm::dvec3, count> disc_of() noexcept {
     constexpr double golden_turn = 0.381966011250105;
@@ -27,7 +27,7 @@ std::array<glm::dvec3, count> disc_of() noexcept {
     return disc;
 }
 
-/// The ball in the toes' space: between heel and toe, below where the toes begin; without toes, at 3/4.
+/// The ball in the toes' space: between heel and toe, below the start of the toes; without toes, at 3/4.
 glm::dvec3 ball_of(const Sole& sole, std::span<const Placement> rest) noexcept {
     using namespace rig::detail;
     const Placement &foot = rest[sole.foot], &toes = rest[sole.toes];

@@ -1,4 +1,4 @@
-// The legs' part of a step: how far the hips are lowered, the speed limits, and the pose.
+// The legs' part of a step: lowering the hips, the speed limits, and the pose.
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +10,15 @@ using namespace rig::detail;
 
 namespace {
 
-/// A foot's goal that moves faster than this fraction of max_speed is a jump of the ground.
+/// A foot's goal that moves faster than this fraction of max_speed is treated as a jump of the ground.
 constexpr double max_step_part = 0.6;
-/// The fraction of max_speed at which a foot catches up with a goal that itself rises along a slope.
+/// Fraction of max_speed at which a foot catches up with a goal that itself rises along a slope.
 constexpr double catch_up_part = 0.3;
-/// The fraction of max_speed at which the hips are lowered for a foot that comes down.
+/// Fraction of max_speed at which the hips are lowered for a foot that comes down.
 constexpr double landing = 0.15;
-/// The multiple of max_speed at which a foot that goes up and aside at once moves relative to the clip.
+/// Maximum speed, relative to the clip, of a foot that moves up and sideways at once; in max_speed.
 constexpr double diagonal = 1.25;
-/// A foot shifted away from an edge stands once no more than this of the shift remains, metres.
+/// A foot shifted away from an edge stands once at most this much of the shift remains, metres.
 constexpr double shift_tolerance = 0.001;
 
 /// Knees bend forwards.
@@ -26,7 +26,7 @@ Pole pole_of(const glm::dvec3& forward) noexcept {
     return {.direction = forward, .part = 0.1, .always = true};
 }
 
-/// The largest fraction of a way, 0 to 1, that `allowed` accepts, by bisection.
+/// The largest fraction, 0 to 1, that `allowed` accepts, by bisection.
 template <class Allowed>
 double max_part(const Allowed& allowed) noexcept {
     if (allowed(1.0)) return 1.0;
@@ -38,7 +38,7 @@ double max_part(const Allowed& allowed) noexcept {
 
 }  // namespace
 
-/// How far the hips must be lowered for the leg to reach; negative if the leg has length to spare.
+/// Distance by which the hips must be lowered for the leg to reach; negative if the leg has length to spare.
 double FeetStep::shortfall(std::size_t i, double lift) const noexcept {
     const LimbPlacement& leg = legs_[i];
     const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
@@ -47,13 +47,13 @@ double FeetStep::shortfall(std::size_t i, double lift) const noexcept {
     return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
 }
 
-/// How far the lift may change in this step, less for a foot whose offset moves fast.
+/// Maximum change of the lift in this step; smaller for a foot whose offset moves fast.
 double FeetStep::lift_limit(std::size_t i) const noexcept {
     const double most = options_.max_speed * dt_, together = diagonal * most, level = goals_[i].shifted;
     return std::min(most, std::sqrt(std::max(0.0, together * together - level * level)));
 }
 
-/// The lift follows its goal; a jump of the goal eases in. Rising along a slope is no jump, however steep.
+/// The lift follows its goal; a jump of the goal eases in. Rising along a slope is not a jump, however steep.
 void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept {
     FootState& foot = state_.feet[i];
     const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
@@ -68,7 +68,7 @@ void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept
         return;
     }
     if (std::abs(change - rise) > max_step_part * most) foot.ease.value -= change - rise;
-    // Eases faster upwards: the edge to clear may be near.
+    // Ease faster upwards: the edge to clear may be near.
     const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.85 : 1.0);
     const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
     const double limit = std::max(lift_limit(i), std::abs(rise) + catch_up_part * most);
@@ -118,8 +118,8 @@ double FeetStep::knee_speed(std::size_t i, double raise, double lift) const noex
     return length(minus(correction, state_.feet[i].knee)) / (options_.max_speed * dt_);
 }
 
-/// The knee of a nearly straight leg moves several times as far as the leg's ends. If the foot stands, the
-/// hips move only as far as the knee's speed allows, but no less than the leg needs.
+/// The knee of a nearly straight leg moves several times as far as the leg's ends. While the foot stands, the
+/// hips move only as far as the knee's speed allows, but at least as far as the leg needs.
 void FeetStep::limit_standing_knees() noexcept {
     if (first_step_ || !(dt_ > 0.0)) return;
     const double from = last_raise_, way = state_.base - state_.drop - from;
@@ -139,7 +139,7 @@ void FeetStep::limit_standing_knees() noexcept {
     state_.drop = drop;
 }
 
-/// A foot whose leg cannot reach down stays above its place, not beside it.
+/// A foot whose leg cannot reach down stays above its place instead of moving beside it.
 void FeetStep::stay_above(std::size_t i) noexcept {
     FootState& foot = state_.feet[i];
     const double short_by = shortfall(i, foot.lift) - state_.drop;
@@ -160,7 +160,7 @@ void FeetStep::limit_knee(std::size_t i, double raise) noexcept {
     if (part == 1.0) return;
     foot.lift = from + way * part;
     if (part == 0.0) {
-        // The clip itself moves the leg too fast: choose the lift with the slowest knee.
+        // The clip itself moves the leg too fast: use the lift with the slowest knee.
         const double most = lift_limit(i);
         double least = knee_speed(i, raise, from);
         for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {

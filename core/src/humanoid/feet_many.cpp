@@ -9,7 +9,7 @@ namespace tendril::humanoid {
 
 void step_many(std::span<FeetJob> jobs, const Ground& ground, double dt,
                const FeetManyOptions& options) noexcept {
-    constexpr std::size_t in_piece = 32;  // some 0.1 ms of work
+    constexpr std::size_t in_piece = 32;  // about 0.1 ms of work
     const auto threads = static_cast<std::uint32_t>(
         std::clamp(options.threads, 1, static_cast<int>(tendril::detail::max_threads)));
     const auto pieces = static_cast<std::uint32_t>((jobs.size() + in_piece - 1) / in_piece);

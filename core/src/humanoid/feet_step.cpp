@@ -14,12 +14,12 @@ using namespace rig::detail;
 
 namespace {
 
-/// If the hips move farther and faster than this in a step, the clip has jumped; metres and m/s.
+/// If the hips move further and faster than this in a step, the clip has jumped; metres and m/s.
 constexpr double min_jump = 1.0, min_jump_speed = 20.0;
 /// A leg that could not reach is used again once it falls short by less than this fraction of pelvis_drop.
 constexpr double reach_again_part = 0.9;
 
-/// Keeps the transforms that a step may change, to blend or restore them.
+/// Saves the transforms that a step may change, to blend or restore them.
 class Saved {
   public:
     Saved(Pose pose, std::size_t hips, const std::array<Limb, 2>& legs) noexcept : pose_(pose) {
@@ -77,7 +77,7 @@ bool FeetStep::place() noexcept {
     return true;
 }
 
-/// Poles point along the character's forward, turned with the hips and with the leg.
+/// Points the poles along the character's forward, turned with the hips and with the leg.
 void FeetStep::point_knees() noexcept {
     const glm::dquat turned = math::compose(hips_.rotation(), conjugate(plan_.hips_at_rest));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -102,8 +102,8 @@ bool FeetStep::is_ground(const std::optional<GroundHit>& hit, double around) con
     return hit && hit->normal.y >= steepest_ && std::abs(hit->height - around) <= options_.max_step;
 }
 
-/// The ground below the hips; failing that, the highest ground, if it is above the clip's floor, so that no
-/// character starts underground.
+/// The ground below the hips; if there is none, the highest ground, if it is above the clip's floor, so that
+/// no character starts underground.
 double FeetStep::first_base() const noexcept {
     const glm::dvec3& at = hips_.position;
     const auto near = ground_.below({at.x, at.y + options_.ray_start, at.z});
@@ -113,7 +113,7 @@ double FeetStep::first_base() const noexcept {
     return top && top->normal.y >= steepest_ && top->height >= floor_ ? top->height - floor_ : 0.0;
 }
 
-/// Mean height of the ground over the clip's floor; state_.base if there is no ground around to stand on.
+/// Mean height of the ground over the clip's floor; state_.base if there is no ground nearby to stand on.
 double FeetStep::ground_around() const noexcept {
     if (ground_.kind() == GroundKind::None) return 0.0;
     const double around = floor_ + state_.base, from = around + options_.max_step;

@@ -8,7 +8,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// A foot this near to the ground stands, metres; the distance includes what its leg falls short by.
+/// A foot this close to the ground stands, metres. The distance includes the part that its leg cannot reach.
 inline constexpr double max_gap = 0.003;
 
 /// Advances a critically damped spring.
@@ -77,9 +77,9 @@ class FeetStep {
     std::array<FootClip, 2> clips_;
     std::array<FootGoal, 2> goals_;
     std::array<glm::dvec3, 2> knees_, poles_;  // the clip's knees; the directions in which knees point
-    double last_raise_ = 0.0;                  // how far the hips were raised before the step
+    double last_raise_ = 0.0;                  // lift of the hips before the step
     std::array<double, 2> lifts_{};            // before the step
-    std::array<double, 2> shortfalls_{};       // how far the leg's end is from its target
+    std::array<double, 2> shortfalls_{};       // distance of the leg's end from its target
 };
 
 }  // namespace tendril::humanoid::detail

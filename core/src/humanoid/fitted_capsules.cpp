@@ -19,10 +19,10 @@ constexpr double min_inside_part = 0.8;  // fraction of the points that must be 
 constexpr double at_ends = 0.02, at_sides = 0.15;
 /// Minimum and maximum radius of a fit, and its maximum distance from the bone, in radii of the default.
 constexpr double min_radius = 0.4, max_radius = 3.0, max_offset = 0.75;
-/// How far before and beyond the bone the line of a head or a hand may extend, in radii of the default.
+/// Maximum extent of the line of a head or a hand before and beyond the bone, in radii of the default.
 constexpr double before = 2.0, beyond = 4.0;
 
-/// The value below which `part` of the values lie. Reorders them.
+/// The value with `part` of the values below it. Reorders them.
 double quantile(std::vector<double>& values, double part) {
     const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + place, values.end());
@@ -37,10 +37,10 @@ struct Line {
     }
 };
 
-/// The line moved to the middle of the points' cross-section; unmoved if that is farther away than `most`.
+/// The line moved to the middle of the points' cross-section; unchanged if that is further away than `most`.
 Line centred(const Line& line, const Facing& facing, const std::vector<glm::dvec3>& points, double most) {
     Line moved = line;
-    // Bodies are symmetric left and right, and arms above and below: centre along these directions.
+    // Bodies are symmetric left and right, and arms also above and below: centre along these directions.
     const glm::dvec3 aside = direction_of(across(facing.left, line.direction), 0.5)
                                  .value_or(direction_of(across(facing.up, line.direction), 1e-6)
                                                .value_or(perpendicular(line.direction)));

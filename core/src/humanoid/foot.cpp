@@ -17,12 +17,12 @@ constexpr double standing = 0.015;
 constexpr double relock_part = 0.25;
 /// Maximum speed at which the ground turns a foot, radians per second.
 constexpr double turn_speed = 3.0;
-/// m/s. Higher speeds come from a tiny dt, not from motion.
+/// Maximum speed, m/s. Higher ones come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// The slowest speed of a foot that goes to its foothold, m/s, and the fastest, as a fraction of max_speed.
+/// Minimum speed of a foot on the way to its foothold, m/s, and maximum, as a fraction of max_speed.
 constexpr double min_shift_speed = 0.4, max_shift_part = 0.6;
-/// A foot is about to land if the clip brakes it so hard that it stops within this time, this near to the
-/// floor; seconds, metres.
+/// A foot is about to land if it is this close to the floor and the clip brakes it so hard that it stops
+/// within this time; metres, seconds.
 constexpr double landing_time = 0.15, landing_height = 0.15;
 
 constexpr double hold_speed_part = 0.75, max_hold_part = 0.65, min_clearance = 0.02;
@@ -35,7 +35,7 @@ double height_over_floor(const FootClip& clip, const FootContext& context) noexc
     return std::min(clip.heel.y, clip.toe.y) - context.floor;
 }
 
-/// The ground below heel and toe, or why the foot cannot stand there.
+/// The ground below heel and toe, or the reason why the foot cannot stand there.
 struct Footing {
     std::optional<GroundHit> heel{}, toe{};  // only if a foot can stand there
     FootAlone alone = FootAlone::No;
@@ -49,7 +49,7 @@ struct Footing {
             return why == FootAlone::TooSteep ||
                    (why == FootAlone::TooFar && hit->height > context.floor + context.base);
         };
-        // A foot may stick out over an edge, but not into ground that is too steep or too high.
+        // A foot may overhang an edge, but not extend into ground that is too steep or too high.
         if (is_wall(heel, why_heel))
             alone = why_heel;
         else if (is_wall(toe, why_toe))
@@ -80,8 +80,7 @@ glm::dquat eased_turn(const glm::dquat& from, const glm::dquat& to, double left,
     return slerp(from, to, std::min(1.0 - left, most / angle));
 }
 
-/// Heel and toe relative to the turned foot's ankle, and how far the ankle slips, since the toe is the
-/// anchor.
+/// Heel and toe relative to the turned foot's ankle, and the slip of the ankle, since the toe is the anchor.
 struct Turned {
     glm::dvec3 heel, ball, toe, slip;
 
@@ -94,8 +93,8 @@ struct Turned {
     }
 };
 
-/// The part of its shift that a foot takes in this step: eased, but on its way to a foothold no faster than a
-/// knee may move, nor so slow that it never gets there.
+/// The part of its shift that a foot makes in this step. It is eased; but on the way to a foothold it is no
+/// faster than a knee may move, and fast enough to get there.
 glm::dvec3 ease_shift(FootState& foot, const FootContext& context) noexcept {
     const double way = std::sqrt(foot.shift_x * foot.shift_x + foot.shift_z * foot.shift_z);
     if (!(way > 1e-9)) {
@@ -118,7 +117,7 @@ bool is_over_foothold(const FootState& foot, const FeetOptions& options) noexcep
     return foot.shift_x * foot.shift_x + foot.shift_z * foot.shift_z <= far * far;
 }
 
-/// Velocity of the toe, horizontal, m/s.
+/// Horizontal velocity of the toe, m/s.
 glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
     if (context.first_step || !(context.dt > 0.0)) return foot.velocity;
     const glm::dvec3 v =
@@ -127,7 +126,7 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// How far the clip still moves a foot that is about to land or has landed; nullopt for any other.
+/// Remaining movement in the clip of a foot that is about to land or has landed; nullopt for any other.
 std::optional<glm::dvec3> landing_in(const FootState& foot, const FootClip& clip, const glm::dvec3& before,
                                      const FootContext& context) noexcept {
     if (foot.locked) return glm::dvec3(0.0);
@@ -145,7 +144,7 @@ glm::dvec3 shift_of(const FootState& foot) noexcept {
     return {foot.shift_x, 0.0, foot.shift_z};
 }
 
-/// Chooses where a foot that is about to land, or has just been locked, stands; one in the air goes back to
+/// Chooses the foothold of a foot that is about to land or has just been locked; a foot in the air returns to
 /// the clip.
 void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<glm::dvec3>& landing,
                      double from, const FootContext& context) noexcept {
@@ -166,7 +165,7 @@ void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<
     foot.shift_x = foot.shift_z = 0.0;
 }
 
-/// Holds a foot back so that it is above a riser before it gets there. A foot that is already far behind
+/// Slows a foot down so that it is above a riser before it gets there. A foot that is already far behind
 /// keeps its distance: otherwise it would fall further behind at each stair.
 glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& eased,
                      const FootContext& context) noexcept {
@@ -182,8 +181,8 @@ glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& ea
     return held;
 }
 
-/// A foot comes down on its foothold from above: it is kept over the step that it has yet to cross, and its
-/// heel over a step behind it until clear of the edge, because a stretched leg lands slightly short.
+/// Lifts a foot that comes down on its foothold from above: it stays over the step that it has yet to cross,
+/// and its heel over a step behind it until clear of the edge, because a stretched leg lands slightly short.
 double lift_over_landing(const FootClip& clip, const Turned& turned, const Footing& footing,
                          const glm::dvec3& way, double from, const FootContext& context) noexcept {
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);

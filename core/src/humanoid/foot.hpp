@@ -16,8 +16,8 @@ struct FootContext {
     double dt;        // seconds; 0: no time passes
     bool first_step;  // the first step: nothing eases
     double floor;     // height of the clip's floor, in the ground's space
-    double base;      // how far the root is raised
-    double decay;     // the factor by which an offset decays in this step
+    double base;      // lift of the root
+    double decay;     // factor by which offsets decay in this step
     double steepest;  // cosine of max_slope
 };
 
@@ -30,9 +30,9 @@ struct FootClip {
 struct FootGoal {
     double lift = 0.0;     // upwards, before the speed limit
     double contact = 0.0;  // the lift that puts the sole on the ground
-    double rise = 0.0;     // rise of the plane below the foot, along its way in this step
+    double rise = 0.0;     // rise of the plane below the foot, along its path in this step
     glm::dvec3 slip{0.0};  // horizontal
-    double shifted = 0.0;  // horizontal, in this step, relative to the clip
+    double shifted = 0.0;  // horizontal move in this step, relative to the clip
 };
 
 /// Locks or releases the foot, and moves the offset of a foot in the air towards its foothold. Returns the
@@ -43,44 +43,45 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
 FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& eased,
                    const FootContext& context) noexcept;
 
-// Where a foot can stand with its whole sole on the ground (foothold.cpp).
+// Footholds: positions with the whole sole on the ground (foothold.cpp).
 
-/// Height differences up to this are no step, metres.
+/// Height differences up to this do not count as a step, metres.
 inline constexpr double step_over_plane = 0.02;
 
 inline double height_of_plane(const GroundHit& hit, double x, double z) noexcept {
     return hit.height - (hit.normal.x * x + hit.normal.z * z) / hit.normal.y;
 }
 
-/// Why a foot cannot stand on what a ray found; No if it can.
+/// The reason why a foot cannot stand on the result of a ray; No if it can.
 FootAlone check_ground(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
 
-/// The horizontal shift from where the clip puts the sole down to where it can stand: whole on ground without
-/// a step in it, or, where treads are too short for that, with one end over the edge of the highest. 0 if it
-/// already stands like that, or cannot within reach. The shortest shift wins, but one near to `before` is
+/// The horizontal shift of the sole from its position in the clip to one where it can stand: with ground and
+/// no step below all of it or, if treads are too short for that, with one end over the edge of the highest. 0
+/// if it already stands like that, or cannot within reach. The shortest shift wins, but one near `before` is
 /// preferred.
 glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double from, const glm::dvec3& before,
                          const FootContext& context) noexcept;
 
-// How high a foot in the air must be to pass over the ground along its way (swing.cpp).
+// Lift of a foot in the air over the ground along its path (swing.cpp).
 
-/// A sole in the air, in the ground's space, and its way in this step.
+/// A sole in the air, in the ground's space, and its path in this step.
 struct SwingSole {
     std::array<glm::dvec3, 3> points;  // heel, ball, toe, as high as they are now
-    glm::dvec3 moved;                  // horizontal, in this step, to where the points are now
+    glm::dvec3 moved;                  // horizontal move in this step, up to `points`
     glm::dvec3 velocity, before;       // the clip's, in this step and the one before, m/s
     double remaining = 1e9;            // remaining distance, if it is about to land
 };
 
 struct Clearance {
-    /// How far the sole must be raised now so that each of its points is above the ground when it gets there,
-    /// rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high enough.
+    /// Distance by which the sole must rise now so that each of its points is above the ground when it gets
+    /// there, rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high
+    /// enough.
     double raise = -1e300;
-    /// The fraction of `moved` that takes it no nearer to an edge than it can rise in time.
+    /// The fraction of `moved` after which the foot can still rise in time for the next edge.
     double part = 1.0;
 };
 
-/// `raise` and `part` change continuously as the foot moves.
+/// Both members change continuously as the foot moves.
 Clearance find_clearance(const SwingSole& sole, double from, const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

@@ -1,4 +1,4 @@
-// Where a foot can stand with its whole sole on the ground.
+// Finds positions with ground below the whole sole.
 #include "humanoid/foot.hpp"
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace {
 
 using namespace rig::detail;
 
-/// Where the ground below the sole is sampled, as fractions of its length. The two in the middle must have
-/// ground below them.
+/// Positions at which the ground below the sole is sampled, as fractions of its length. The middle two must
+/// have ground below them.
 constexpr std::array<double, 4> sample_positions{0.0, 0.4, 0.75, 1.0};
-/// The distance of the farthest foothold, as a fraction of break_distance.
+/// Maximum distance of a foothold, as a fraction of break_distance.
 constexpr double max_foothold_part = 0.75;
 /// Weight of the distance from the previous foothold, relative to the distance from the clip's.
 constexpr double previous_weight = 0.5;
@@ -34,7 +34,7 @@ class SoleProbe {
     double size() const noexcept { return size_; }
 
     enum class Stand { Nowhere, Partial, Whole };
-    /// How the sole stands when shifted; a margin is ground to spare before the toe and behind the heel.
+    /// Tests how the shifted sole stands. `margin`: required ground before the toe and behind the heel.
     Stand stand(const glm::dvec3& shift, double margin) const noexcept {
         std::array<double, sample_positions.size()> heights;
         std::optional<GroundHit> first;
@@ -117,8 +117,8 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
         const double size = length(shift);
         if (size > limit) return;
         const double cost = size + previous_weight * length(minus(shift, before));
-        // From best to worst: the whole sole with the margin; without it; one end in the air, with it;
-        // without it.
+        // From best to worst: the whole sole with the margin; without it; one end in the air, with the
+        // margin; without it.
         if (best_rank == best_stand && cost >= least_cost) return;
         const Stand wide = sole.stand(shift, margin),
                     close = wide == Stand::Whole ? wide : sole.stand(shift, 0.0);

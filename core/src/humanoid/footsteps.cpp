@@ -31,7 +31,7 @@ glm::dvec3 step_position(const Footstep& step) noexcept {
     return mix(step.from, step.to, ease);
 }
 
-/// How far the targets pull the body, horizontally.
+/// The horizontal pull of the targets on the body.
 glm::dvec3 target_pull(const BodyState& body) noexcept {
     glm::dvec3 pull{0.0};
     for (const Effector each : {Effector::Hips, Effector::Head, Effector::LeftHand, Effector::RightHand}) {
@@ -43,8 +43,8 @@ glm::dvec3 target_pull(const BodyState& body) noexcept {
     return pull;
 }
 
-/// How much higher the ground is below the sole shifted by `to` than below the clip's sole; nullopt where
-/// there is no ground, or where the step from the sole shifted by `from` is too high.
+/// Height of the ground below the sole shifted by `to`, relative to the ground below the clip's sole. nullopt
+/// if there is no ground, or if the step from the sole shifted by `from` is too high.
 std::optional<double> step_height(const SolePoints& sole, const glm::dvec3& from, const glm::dvec3& to,
                                   const Ground* ground, double leg) noexcept {
     if (ground == nullptr) return 0.0;
@@ -97,13 +97,13 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
     const bool has_targets =
         std::any_of(body.weights.begin(), body.weights.end(), [](double each) { return each > 0.0; });
     const double leg = soles.leg;
-    if (!has_targets) {  // back to the clip, the farther foot first
+    if (!has_targets) {  // back to the clip, the further foot first
         const double left = length(state.feet[0].to), right = length(state.feet[1].to);
         if (!(left > 0.0 || right > 0.0)) return false;
         return start_step(state.feet[left >= right ? 0 : 1], glm::dvec3(0.0));
     }
     const glm::dvec3 pull = target_pull(body);
-    double hold = body.outside;  // by balance, or by a fully stretched leg
+    double hold = body.outside;  // caused by balance, or by a fully stretched leg
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
         hold = std::max(hold, length(body.left[static_cast<std::size_t>(foot)]));
     if (!(hold > min_outside * leg && length(pull) > no_step_within * leg)) return false;
@@ -128,7 +128,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         glm::dvec3 way = minus(capture, other);
         way = plus(way, times(aside, std::max(min_feet_distance * leg - dot(way, aside), 0.0)));
         way = shortened(way, max_step * leg);
-        for (const double part : {1.0, 0.8, 0.6, 0.4}) {  // a shorter step where the ground requires it
+        for (const double part : {1.0, 0.8, 0.6, 0.4}) {  // shorter steps if the ground requires it
             const glm::dvec3 there = mix(stands[side], plus(other, way), part);
             if (length(minus(capture, there)) > length(minus(capture, stands[side])) - min_step * leg) break;
             glm::dvec3 to = plus(flat(state.feet[side].to), minus(there, stands[side]));

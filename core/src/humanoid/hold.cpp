@@ -13,7 +13,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// Up to these a grip counts as closed, metres and radians.
+/// Maximum errors of a closed grip, metres and radians.
 constexpr double closed_gap = 1e-5, closed_off = 5e-4;
 
 Result check_hand(std::string_view operation, const Argument& argument, Effector hand) noexcept {

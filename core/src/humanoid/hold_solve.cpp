@@ -13,35 +13,37 @@ using namespace rig::detail;
 
 namespace {
 
-// Tuned by tests/core/humanoid_hold_test.cpp. Costs are relative to displacing the object by a metre.
+// Tuned with tests/core/humanoid_hold_test.cpp. Costs are relative to displacing the object by a metre.
 
 /// Cost of a radian of an upper arm in one step. If larger, the object takes more steps to its requested
 /// pose.
 constexpr double joint_damping = 0.02;
-/// From step to step the damping falls to this fraction of the last step's size: large steps are cautious,
-/// small ones exact.
+/// After each step the damping falls to this fraction of the step's size: large steps are cautious, small
+/// ones exact.
 constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
 /// A grip's compliance in one step, before its force has grown. If larger, grips take more steps to close.
 constexpr double grip_compliance = 0.01;
-/// Maximum force of a grip at the start of a step: this, plus this per metre that the object has given way.
+/// Maximum force of a grip at the start of a step: this, plus as much per metre that the object has given
+/// way.
 constexpr double max_grip_force = 2.0;
 /// Weight of the grips' second derivatives along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
-/// Fraction of a step by which it may pass a limit.
+/// Fraction of a step by which the step may pass a limit.
 constexpr double limit_tolerance = 0.01;
 /// Further steps that only close the grips, if the solve has not settled.
 constexpr int closing_steps = 20;
 constexpr int max_hold_changes = 6;  ///< maximum changes of the set of limits, per step
 /// Maximum size of one step, radians and metres.
 constexpr double max_hold_step = 0.4;
-/// A smaller step ends the solve if the grips are as closed as they can be.
+/// A step smaller than this ends the solve if the grips are as closed as possible.
 constexpr double hold_tolerance = 1e-7;
-/// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus metres.
+/// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus a
+/// constant in metres.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
-/// A joint counts as at its limit if a force over the first would turn it by over the second, radians, but it
-/// cannot turn.
+/// A joint counts as at its limit if it cannot turn although a force over the first constant would turn it by
+/// more than the second, radians.
 constexpr double min_reported_force = 1e-5, min_reported_turn = 1e-3;
-/// An arm is straight if its bend is at most this much over its minimum, radians.
+/// An arm is straight if its bend exceeds its minimum by at most this, radians.
 constexpr double straight_slack = 0.03;
 
 }  // namespace
@@ -157,7 +159,7 @@ void HoldSolve::measure() noexcept {
             }
             continue;
         }
-        // Only the axes have to align.
+        // Only the axes must align.
         arm.axis = rotated(pose_.rotation, *axis);
         const glm::dvec3 held = rotated(conjugate(error), arm.axis), about = cross(held, arm.axis);
         const double sine = length(about), angle = arctangent(sine, dot(held, arm.axis));
@@ -186,8 +188,8 @@ glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
     return cross(row.along, arms_[row.arm].from);
 }
 
-/// Finds a step that closes the grips and moves the object towards its requested pose. Returns its size,
-/// radians and metres. Sets `failed_` if there is none.
+/// Finds a step that closes the grips and moves the object towards its requested pose. Returns the step's
+/// size, radians and metres. Sets `failed_` if there is none.
 double HoldSolve::find_step() noexcept {
     double object_stiffness = turn_length_ * turn_length_;
     for (std::size_t i = 0; i < arm_count_; ++i)
@@ -217,7 +219,7 @@ bool HoldSolve::solve_rows() noexcept {
     const glm::dvec3 move = times(minus(target_.position, pose_.position), pull_);
     const glm::dvec3 turn = times(logarithm(math::compose(target_.rotation, conjugate(pose_.rotation))),
                                   pull_ * turn_length_ * turn_length_ * object_compliance_);
-    // Where the grips cannot close, forces kept in full would grow without bound.
+    // If the grips cannot close, forces kept in full would grow without bound.
     const double max_force = max_grip_force * (work_.size + length(move));
     const auto clamped = [](const glm::dvec3& value, double largest) {
         const double size = length(value);
@@ -270,8 +272,8 @@ bool HoldSolve::solve_rows() noexcept {
     return true;
 }
 
-/// How far beyond its limit a turn would take the joint, in the character's space; `there` is the turn at
-/// which it stops.
+/// The part of a turn that is beyond the joint's limit, in the character's space; `there` receives the turn
+/// at which the joint stops.
 glm::dvec3 HoldSolve::excess(const Joint& joint, const glm::dvec3& turn, glm::dquat& there) noexcept {
     Link& at = link(joint.link);
     const glm::dquat was = at.turn, parent = before(at);
@@ -283,7 +285,7 @@ glm::dvec3 HoldSolve::excess(const Joint& joint, const glm::dvec3& turn, glm::dq
     return beyond ? rotated(parent, logarithm(math::compose(tried, conjugate(there)))) : glm::dvec3(0.0);
 }
 
-/// Blocks the bounds that `turn` is at and `step` would pass.
+/// Blocks the bounds that `turn` is at and that `step` would pass.
 bool HoldSolve::block_bounds(Joint& joint, const glm::dquat& turn, const glm::dvec3& step) noexcept {
     Link& at = link(joint.link);
     const Arm& arm = arms_[joint.arm];
@@ -296,7 +298,7 @@ bool HoldSolve::block_bounds(Joint& joint, const glm::dquat& turn, const glm::dv
                                      math::compose(before(at), share), step);
 }
 
-/// Holds the joints that the step would take beyond a limit at that limit. False if nothing changed.
+/// Stops the joints at the limits that the step would pass. False if nothing changed.
 bool HoldSolve::block() noexcept {
     bool changed = false;
     for (std::size_t i = 0; i < joint_count_; ++i) {
@@ -363,7 +365,7 @@ void HoldSolve::apply(double part) noexcept {
     }
 }
 
-/// True once nothing changes any more.
+/// True once nothing changes.
 bool HoldSolve::step() noexcept {
     const double size = find_step(), open = max_gap();
     if (failed_) return false;
@@ -393,7 +395,7 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
         for (int i = 0; i < closing_steps && !step() && !failed_;) ++i;
     }
     report.iterations = iterations_;
-    if (!is_finite()) {  // numbers near the largest: the pose before stays
+    if (!is_finite()) {  // overflow: restore the previous pose
         for (Link& each : work_.links) each.turn = each.clip_turn;
         pose_ = target_;
         report.settled = false;
@@ -404,7 +406,7 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
         const Arm& arm = arms_[i];
         Link& hand = link(arm.end);
         if (!arm.grip->rotation || hand.parent < 0) continue;
-        // As BodySolve::turn_end(): the lower arm takes part of the twist, which moves no joint.
+        // Like BodySolve::turn_end(): the lower arm takes part of the twist, which moves no joint.
         Link& lower = link(static_cast<std::size_t>(hand.parent));
         const double twist = shared_twist(arm);
         lower.turn = math::compose(lower.turn, rotation_about(arm.forearm, twist));

@@ -29,7 +29,7 @@ class HoldSolve {
         TurnFreedom freedom{};
         double compliance = 0.0;
         glm::dvec3 turn{0.0};
-        glm::dvec3 held{0.0};  ///< the part of `turn` that ends at a limit
+        glm::dvec3 held{0.0};  ///< the part of `turn` that stops at a limit
     };
     struct Arm {
         const Grip* grip = nullptr;
@@ -40,8 +40,8 @@ class HoldSolve {
         glm::dvec3 axis{0.0};                ///< Grip::axis in the character's space, unit or zero
         glm::dvec3 from{0.0};                ///< from the object's origin to the grip
         glm::dvec3 gap{0.0}, turn_gap{0.0};  ///< from the hand to its grip
-        glm::dvec3 force{0.0}, torque{0.0};  ///< of the grip on the hand
-        glm::dvec3 pull_force{0.0}, pull_torque{0.0};  ///< the same while the object pulls, reported
+        glm::dvec3 force{0.0}, torque{0.0};  ///< applied by the grip to the hand
+        glm::dvec3 pull_force{0.0}, pull_torque{0.0};  ///< the same while the object pulls; for the report
     };
     struct Row {
         std::size_t arm;
@@ -70,7 +70,7 @@ class HoldSolve {
     bool solve_rows() noexcept;
     bool block() noexcept;
     void apply(double part) noexcept;
-    /// The share of a hand's twist that the lower arm takes, radians.
+    /// The lower arm's share of a hand's twist, radians.
     double shared_twist(const Arm& arm) const noexcept;
     bool clamp_hand(const Arm& arm) noexcept;
     bool clamp(const Joint& joint) noexcept;
@@ -92,7 +92,7 @@ class HoldSolve {
     std::size_t row_count_ = 0;
     int iterations_ = 0;
     bool failed_ = false;                ///< no finite step was found
-    double object_compliance_ = 0.0;     ///< of its turns
+    double object_compliance_ = 0.0;     ///< for turns of the object
     double damping_ = 0.0;               ///< damping of the next step
     double pull_ = 1.0;                  ///< 0: the object only follows the hands
     glm::dvec3 shift_{0.0}, turn_{0.0};  ///< the object's move in a step

@@ -22,7 +22,7 @@ Result not_below_hips(const Skeleton& skeleton, std::size_t node, Bone bone) noe
 /// The map, or an empty one if check_map() refuses it.
 const BoneMap& map_or_none(const BoneMap& map, const Skeleton& skeleton) noexcept;
 
-/// Whether each number is finite and at most max_magnitude in magnitude.
+/// True if each number is finite and at most max_magnitude in magnitude.
 inline bool is_within(const glm::dvec3& v) noexcept {
     const auto most = static_cast<double>(max_magnitude);
     return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;

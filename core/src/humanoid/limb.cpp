@@ -18,8 +18,8 @@ glm::dvec3 direction(const glm::dvec3& from, const glm::dvec3& to, const glm::dv
     return direction_of(minus(to, from), shortest).value_or(fallback);
 }
 
-/// Perpendicular to the line from root to end: the direction of the middle joint, blended with the pole, more
-/// so the nearer the joint is to the line. With pole.always, never against the pole.
+/// The direction of the middle joint, perpendicular to the line from root to end. It is blended with the
+/// pole, the more so the nearer the joint is to the line. With pole.always, never against the pole.
 glm::dvec3 bend_direction(const LimbPlacement& at, const glm::dvec3& line, const Pole& pole) noexcept {
     const glm::dvec3 side = direction_of(across(pole.direction, line), 1e-6).value_or(perpendicular(line));
     glm::dvec3 aside = across(minus(at.lower.position, at.upper.position), line);

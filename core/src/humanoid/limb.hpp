@@ -1,4 +1,4 @@
-// Closed-form IK of two bones: a leg or an arm, whatever nodes lie between its joints. Not installed.
+// Closed-form IK of two bones: a leg or an arm, with any nodes between its joints. Not installed.
 //
 // A limb is the path from the root node down to the limb's end. Only the rotations of its upper, lower and
 // end node change; nodes between them (twist bones, pivots) move along.
@@ -19,8 +19,8 @@ struct Limb {
     std::vector<std::int32_t> path{};                     // nodes, each the parent of the next
     std::size_t upper = 0, lower = 0, end = 0, tail = 0;  // indices into the path; the tail is its last
 
-    /// Makes the limb from the root to `tail`, through the others. nullopt unless each is below the one
-    /// before; only `end` and `tail` may be the same node.
+    /// Makes the limb from the root to `tail`, through the others. nullopt unless each is below the previous
+    /// one; only `end` and `tail` may be the same node.
     static std::optional<Limb> make(const Skeleton& skeleton, std::int32_t upper, std::int32_t lower,
                                     std::int32_t end, std::int32_t tail);
     std::size_t node(std::size_t place) const noexcept { return static_cast<std::size_t>(path[place]); }
@@ -39,7 +39,7 @@ LimbPlacement place(const Limb& limb, const Placement& root, Pose pose) noexcept
 /// Updates everything below `above_upper`.
 void place_below(const Limb& limb, LimbPlacement& at, Pose pose) noexcept;
 
-/// Whether all numbers are at most 1e12.
+/// True if all numbers are at most 1e12.
 bool is_moderate(const Placement& placement) noexcept;
 
 /// `vector` in the local space of `at`: multiplied by the inverse of at.axes; 0 if their volume is
@@ -60,7 +60,7 @@ struct Bend {
     glm::dvec3 mid, end;
     glm::dquat upper, lower;
 };
-/// Where the middle joint of a straight limb goes.
+/// The side to which a straight limb bends.
 struct Pole {
     glm::dvec3 direction;  // unit length
     double part;  // offset of the joint, in limb lengths, at which its own side weighs as much as the pole

@@ -59,7 +59,7 @@ class DefaultLimits {
             limit.twist_max = radians(whole.twist / count), limit.twist_min = -limit.twist_max;
         }
     }
-    /// Whether the shoulder is too short for a collar bone: where rigs have such a stub, the whole arm turns
+    /// True if the shoulder is too short for a collar bone. In rigs with such a stub, the whole arm turns
     /// about it.
     bool is_stub(Bone shoulder, Bone upper, Bone lower, Bone hand) const {
         constexpr double shortest = 0.1;  // arm lengths; a collar bone is 0.25
@@ -78,7 +78,7 @@ class DefaultLimits {
         };
         const glm::dvec3 out = left ? facing_.left : -facing_.left;
         const bool lies_left = dot(out, across_) > 0.0;  // a map may have the sides swapped
-        // About this axis the arm goes up; about the perpendicular one, the body's up, the left arm goes
+        // The arm goes up about this axis; about the perpendicular one, the body's up, the left arm goes
         // back.
         const glm::dvec3 raises = cross(out, facing_.up);
         at(Bone::LeftUpperArm) =
@@ -90,7 +90,7 @@ class DefaultLimits {
                 : ball(ik::JointKind::BallAndSocket, raises, {30.0, 10.0, 20.0, 25.0, 15.0}, lies_left);
         at(Bone::LeftLowerArm) = hinge(side(Bone::LeftLowerArm), cross(out, facing_.forward), 150.0);
         at(Bone::LeftHand) = ball(ik::JointKind::Gliding, raises, {70.0, 80.0, 20.0, 35.0, 85.0}, lies_left);
-        // About this axis legs go forward and toes up; about the perpendicular one, forward, they go left.
+        // Legs go forward and toes up about this axis; about the perpendicular one, forward, they go left.
         const glm::dvec3 lifts = -across_;
         at(Bone::LeftUpperLeg) =
             ball(ik::JointKind::BallAndSocket, lifts, {120.0, 30.0, 45.0, 30.0, 45.0}, lies_left);
@@ -111,8 +111,8 @@ class DefaultLimits {
     ik::Limit hinge(Bone bone, const glm::dvec3& usual, double most) const {
         return ik::Limit::hinge(axis(bend_at_rest(bone, usual).value_or(usual)), 0.0f, radians(most));
     }
-    /// The axis of a lower limb's bend at rest, taken to the T-pose; nullopt if nearly straight, or slightly
-    /// overstretched (bent against `usual`).
+    /// The axis of a lower limb's bend at rest, transported to the T-pose; nullopt if it is nearly straight,
+    /// or slightly overstretched (bent against `usual`).
     std::optional<glm::dvec3> bend_at_rest(Bone bone, const glm::dvec3& usual) const {
         const Bone upper = static_cast<Bone>(static_cast<int>(bone) - 1);
         const auto end = detail::limb_child(bone);
@@ -135,7 +135,7 @@ class DefaultLimits {
 
     const BoneMap& map_;
     Facing facing_;
-    glm::dvec3 across_;  // to the left as the character faces, whatever the map calls left
+    glm::dvec3 across_;  // to the character's left, whatever the map calls left
     std::vector<rig::Transform> pose_;
     std::vector<Placement> rest_, t_;
 };

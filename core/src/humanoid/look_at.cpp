@@ -24,8 +24,8 @@ double limited(double angle, double most) noexcept {
     return std::min(angle, most);
 }
 
-/// The gaze's next direction on its way to `target`: by way of the clip's gaze, `ahead`, if the shortest arc
-/// would change sides behind the head, outside the view. All bones would turn over there.
+/// The gaze's next direction on its way to `target`. It goes through the clip's gaze, `ahead`, if the
+/// shortest arc would change sides behind the head, outside the view, where all bones would turn over.
 glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& target, const glm::dvec3& ahead,
                      double view) noexcept {
     const bool same_side = dot(gaze, target) >= dot(gaze, ahead) * dot(target, ahead);
@@ -51,7 +51,7 @@ struct LookAt::Plan {
         return bone == neck ? options.neck_part : options.spine_part / static_cast<double>(spine_bones);
     }
 
-    /// The placement of the parent of the path's node at `place`.
+    /// The placement of the parent of the path's node at index `place`.
     Placement above(std::size_t place, const Placement& root, detail::Pose pose) const noexcept {
         Placement at = root;
         for (std::size_t i = 0; i < place; ++i)
@@ -63,7 +63,7 @@ struct LookAt::Plan {
               const LookAtOptions& options) const noexcept;
 };
 
-/// Turns each bone as if the head's gaze were fixed to it, by its share of the remaining way.
+/// Turns each bone as if the head's gaze were fixed to it, by its share of the remaining turn.
 void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
                         const LookAtOptions& options) const noexcept {
     double left = 1.0;
@@ -143,7 +143,7 @@ LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& o
                                           options.view, options.half_life, dt);
     const bool is_first = dot(state.gaze, state.gaze) < 0.5;
     const double most = dt > 0.0 ? options.max_speed * std::min(dt, 1e3) : 0.0;
-    // The gaze does not track a target out of view: when one comes into view, it starts from the clip's gaze.
+    // The gaze does not track a target out of view. When one comes into view, it starts from the clip's gaze.
     const glm::dvec3 from = seen > 0.0 ? state.gaze : ahead;
     const glm::dvec3 to = state.in_view ? next_gaze(from, target, ahead, options.view) : from;
     state.gaze = is_first ? target : detail::turned_toward(from, to, most);

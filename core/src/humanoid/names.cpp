@@ -72,7 +72,7 @@ std::vector<std::string> words_of(std::string_view original) {
     return words;
 }
 
-/// Whether a blank-separated list contains the word.
+/// True if a blank-separated list contains the word.
 bool is_one_of(std::string_view word, std::string_view list) {
     for (std::size_t at = list.find(word); at != list.npos; at = list.find(word, at + 1)) {
         const std::size_t end = at + word.size();
@@ -82,14 +82,14 @@ bool is_one_of(std::string_view word, std::string_view list) {
     return false;
 }
 
-/// A node with one of these words in its name is no bone of the body.
+/// Words in the names of nodes that are not bones of the body.
 constexpr std::string_view not_bones =
     "twist roll helper ik pole poletarget target end leaf tip nub top socket attach "
     "weapon prop hair skirt cloth cape tail ear eye eyes brow jaw mouth lip tongue "
     "teeth nose cheek face breast finger fingers thumb index ring pinky little pinkie "
     "mid palm metacarpal carpal wing muscle share tweak fk ctrl control mch site "
     "camera light holder effector goal ankleroll sec";
-/// Words to ignore.
+/// Words to ignore in a name.
 constexpr std::string_view fillers =
     "mixamorig bip biped def org valve j b cc base bone bn jnt rig armature character "
     "c m jt skel sk bones human center g x bend stretch avg";
@@ -127,7 +127,7 @@ Side side_of(std::string_view word) {
     return Side::None;
 }
 
-/// Takes a side without a separator off: "leftarm", "lthigh", "handr".
+/// Removes a side that has no separator: "leftarm", "lthigh", "handr".
 Side take_side(std::string& text) {
     for (const std::string_view side : {"left", "right", "l", "r"}) {
         const bool before = text.starts_with(side), after = text.ends_with(side);
@@ -177,7 +177,7 @@ NameReading read_name(std::string_view name, std::string_view ignored) {
     reading.part = part_of(text);
     reading.is_plain = text == "hips";
     const bool has_side = reading.side != Side::None;
-    if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is no leg
+    if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is not a leg
     if (reading.part == Part::None || (reading.part >= Part::Shoulder) != has_side) return {};
     return reading;
 }

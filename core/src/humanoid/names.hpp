@@ -13,10 +13,10 @@ namespace tendril::humanoid::detail {
 enum class Part : std::uint8_t {
     None,
     Hips,
-    Spine,  // any bone between hips and neck: its position tells which
+    Spine,  // any bone between hips and neck: its position decides which
     Neck,
     Head,
-    // From here on there is one on each side, in the order of the limb.
+    // One on each side from here on, in the order of the limb.
     Shoulder,
     UpperArm,
     LowerArm,
@@ -38,10 +38,11 @@ struct NameReading {
     bool is_plain = false;  ///< exactly "hips", not "pelvis" or "hip"
 };
 
-/// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are not bones
-/// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the word `ignored`.
+/// Reads a name, ignoring prefixes of programs and characters, case and separators. Part::None for nodes that
+/// are not bones of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the
+/// word `ignored`.
 NameReading read_name(std::string_view name, std::string_view ignored = {});
-/// The word that begins more than half of the names, a character's or an asset's; "" if there is none.
+/// The first word of more than half of the names, a character's or an asset's; "" if there is none.
 std::string common_word(const Skeleton& skeleton);
 
 enum class Finger : std::uint8_t { Thumb, Index, Middle, Ring, Little };
@@ -53,7 +54,7 @@ bool is_same_but_for_numbers(std::string_view a, std::string_view b);
 /// "palm.01.L", "index_metacarpal_l"
 bool is_palm_name(std::string_view name);
 
-/// Whether the node takes a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
+/// True if the node takes a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
 bool is_twist_name(std::string_view name);
 
 }  // namespace tendril::humanoid::detail

@@ -19,13 +19,13 @@ using namespace rig::detail;
 
 constexpr std::size_t max_retargeted_keys = 100'000;
 
-/// Thigh plus shin of a person. The source is scaled to this size before its steps are found, since many
-/// files have a wrong unit.
+/// Thigh plus shin of a person. The source is scaled to this size before its steps are detected, since many
+/// files use a wrong unit.
 constexpr double person_leg = 0.85;  // metres
 
-constexpr double helper_reach = 0.1;  // in leg lengths, at rest: helpers this near to a node follow it
+constexpr double helper_reach = 0.1;  // in leg lengths, at rest: helpers this close to a node follow it
 
-constexpr double max_flat_tilt = 8.0;  // degrees from which a foot on the ground is not flat
+constexpr double max_flat_tilt = 8.0;  // degrees of tilt above which a foot on the ground is not flat
 
 Clip scaled(Clip clip, double by) {
     for (Channel& each : clip.channels)
@@ -46,7 +46,7 @@ double person_scale(const MappedSkeleton& body) {
     return leg > 1e-6 && leg < 1e6 ? person_leg / leg : 1.0;
 }
 
-/// Every key of the source and every frame, ascending.
+/// All key times of the source and all its frames, ascending.
 std::vector<double> key_times(const Clip& clip) {
     const Frames frames = frames_at(clip, frame_rate(clip));
     if (frames.count > max_retargeted_keys) return std::vector<double>(max_retargeted_keys + 1);
@@ -70,7 +70,7 @@ double extent_of(const Skeleton& skeleton) {
 }
 
 /// For each source node, the same node of the target: same name, parent and rest pose, up to one scale and to
-/// the rounding of a file's 32-bit numbers. Empty if a node differs or is missing in one of them, or if the
+/// the rounding of a file's 32-bit numbers. Empty if a node differs or is missing on either side, or if the
 /// maps differ.
 std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkeleton& to, double ratio) {
     constexpr double same = 1e-5;  // in metres of a person, and for unit quaternions
@@ -187,8 +187,8 @@ class Retargeter {
     // ------------------------------------------------------------------------------------------- helpers
 
     /// Sorts the nodes that are not below the hips. The root above the hips travels with them, and so do its
-    /// other children. Helpers at a node of the body at rest, as IK targets are, follow that node. Other
-    /// roots stay, unless they have such helpers.
+    /// other children. Helpers that are at a node of the body at rest, such as IK targets, follow that node.
+    /// Other roots stay, unless they have such helpers.
     void find_root() {
         const Skeleton& skeleton = to_.skeleton;
         const auto hips = now_.node(Bone::Hips);
@@ -268,7 +268,7 @@ class Retargeter {
              .ground = was_.ground,
              .turn = turn_});
     }
-    /// Learns how feet and toes lie on the ground from the frames in which they stand.
+    /// Learns how feet and toes rest on the ground from the frames in which they stand.
     void learn_level_feet(const lint_detail::FeetMotion& motion) {
         for (const bool left : {true, false}) {
             const lint_detail::Foot& foot = motion.feet[left ? 0 : 1];
@@ -340,7 +340,7 @@ class Retargeter {
 
     // --------------------------------------------------------------------------------------------- limbs
 
-    /// Turns every bone that both have from its reference pose as the source's bone turns from its own.
+    /// Turns every shared bone from its reference pose as the source's bone turns from its own.
     void pose_limbs(double time) {
         sample(clip_, skeleton_, time, source_pose_);
         place(skeleton_, source_pose_, source_);

@@ -160,7 +160,7 @@ std::optional<glm::dquat> RetargetBody::palm_down(bool left) const {
 
 // -------------------------------------------------------------------------------------------------- feet
 
-/// Points the toes forward: in the zero pose of some files they point up or down.
+/// Points the toes forward: in some files' zero pose they point up or down.
 bool RetargetBody::point_toes() {
     bool turned = false;
     for (const LegBones& bones : leg_bones) {
@@ -225,8 +225,8 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     }
 }
 
-/// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show the
-/// thickness, soles end at the lowest joint, as for the lint.
+/// If the legs differ in length, both soles are as thick as the thinner one. If the rest pose does not show
+/// the thickness, soles end at the lowest joint, as in the lint.
 void RetargetBody::level_soles(const std::vector<Placement>& standing, bool shows_thickness) {
     std::array<double, 2> lowest{1e9, 1e9};
     for (std::size_t side = 0; side < 2; ++side)

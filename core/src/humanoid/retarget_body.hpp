@@ -1,5 +1,5 @@
-// A body in the reference pose of retargeting: the T-pose with hands, fingers and feet straightened, too. Not
-// installed.
+// A body in the reference pose for retargeting: the T-pose, with hands, fingers and feet straightened as
+// well. Not installed.
 #pragma once
 
 #include <array>
@@ -30,9 +30,9 @@ struct RetargetBody {
     double leg = 0.0;                      // thigh plus shin, or the hips' height over the feet; 0: no legs
     bool has_legs = false;                 // thighs, shins and feet
     std::vector<Placement> placed{};       // all nodes, in the T-pose
-    std::vector<glm::dquat> rotations{};   // the same, straightened
-    std::optional<Soles> soles{};          // if it has legs; their floor is below its hips at rest
-    double ground = 0.0;  // height of the ground: its floor at rest, or 0 if the rest pose is far from that
+    std::vector<glm::dquat> rotations{};   // the same nodes, straightened
+    std::optional<Soles> soles{};          // if it has legs; their floor is below the hips at rest
+    double ground = 0.0;  // height of the ground: the floor at rest, or 0 if the rest pose is far from it
     std::array<std::optional<glm::dvec3>, 2> tips{};  // below the tip of the toes, in the toes' space
     /// The nodes that turn the fingers, left and right: the hand, or the last node at the wrist (CMU's
     /// LeftFingerBase).
@@ -43,17 +43,17 @@ struct RetargetBody {
     bool has(Bone bone) const noexcept { return body.map[bone].node >= 0; }
     /// The sole of a foot whose ankle is `above` the ground.
     SoleTriple sole(bool left, double above) const;
-    /// Turns the node so that `up`, a direction of its own, points up.
+    /// Turns the node so that `up`, a direction in its own space, points up.
     void level(std::size_t node, const glm::dvec3& up);
-    /// Points the foot forward: many rest poses have the toes turned out.
+    /// Points the foot forward: in many rest poses the toes are turned out.
     void straighten_foot(bool left);
-    /// The rotation about the hand's axis that brings the index finger in front of the little one; nullopt:
-    /// one of them is not known.
+    /// The rotation about the hand's axis that brings the index finger in front of the little one; nullopt if
+    /// either is unknown.
     std::optional<glm::dquat> palm_down(bool left) const;
     void turn(std::size_t node, const glm::dquat& by);
 
   private:
-    /// Nodes closer to each other than this, metres, are at one place.
+    /// Nodes closer together than this, metres, are in one place.
     double shortest() const noexcept { return 1e-4 * leg + 1e-9; }
     std::optional<glm::dvec3> hand_axis(bool left) const;
     void find_fingers(bool left);

@@ -14,20 +14,20 @@ namespace {
 constexpr double blend_time = 0.4;    // seconds over which a stance's displacement fades out
 constexpr double hips_time = 0.15;    // seconds within which the hips are lowered
 constexpr double lift_time = 0.1;     // seconds within which a swinging foot is lifted
-constexpr double min_swing = 0.05;    // seconds: no step is shorter
+constexpr double min_swing = 0.05;    // minimum duration of a step, seconds
 constexpr double min_hold = 0.1;      // seconds that a foot must be still to be held off the floor
-constexpr double swing_speed = 0.3;   // m/s: a slower foot has landed, or has not left yet
+constexpr double swing_speed = 0.3;   // m/s: a slower foot has landed or has not left yet
 constexpr double floor_gap = 0.03;    // metres of the source
 constexpr double max_slide = 0.04;    // metres of the source: shorter slides of a standing foot are removed
-constexpr double max_rise = 0.006;    // metres of the source: a foot below that has landed
-constexpr double max_sinking = 0.05;  // metres of the source: feet deeper in the ground are meant to be
+constexpr double max_rise = 0.006;    // metres of the source: a foot lower than this has landed
+constexpr double max_sinking = 0.05;  // metres of the source: feet deeper in the ground are intended
 constexpr double straight = 0.995;    // in leg lengths, unless the source's leg is straighter
 constexpr double sole_part = 0.006;   // in leg lengths: points of the sole this near to the ground touch it
 constexpr double clear_part = 0.012;  // in leg lengths: a swinging foot is lifted up to this height
 constexpr double loop_part = 0.01;    // in leg lengths: maximum difference of first and last pose in a loop
 
-/// The frames of a clip, or three rounds of one that ends as it begins. Only the second round is used, which
-/// then leads into the next.
+/// The frames of a clip, or three rounds of one that ends as it begins. Only the second round, which leads
+/// into the next, is used.
 class Rounds {
   public:
     explicit Rounds(const FootingTask& task) : frames_(task.frames.size()), loops_(loops(task)) {}
@@ -117,7 +117,7 @@ class Planner {
             if (end - i >= seconds(min_hold)) mark(i, end - 1);
             i = std::max(end, i + 1);
         }
-        // Include the frame at either end, whose speed is affected by the swing next to it.
+        // Include the frame at either end: the swing next to it affects its speed.
         const std::vector<bool> certain = stands;
         for (std::size_t i = 1; i < stands.size(); ++i) {
             const double limit = swing_speed / task_.rate;
@@ -171,7 +171,7 @@ class Planner {
         shift_ = gaps.empty() ? task_.shift : lint_detail::median(gaps);
     }
 
-    /// Keeps the sole in place on the ground, or moves it with the ground of an in-place motion.
+    /// Keeps the sole in place on the ground, or moves it with the ground in an in-place motion.
     void hold(std::size_t foot, const Stand& stand) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         const std::vector<glm::dvec3> path = sole_path(foot, stand);
@@ -191,16 +191,16 @@ class Planner {
             moves[i] = {moves[i].x - mean.x, up, moves[i].z - mean.z};
         }
     }
-    /// The sole's height above the target's floor. A foot that lands or lifts off is as high as the source's,
-    /// scaled.
+    /// Height of the sole above the target's floor. A foot that lands or lifts off is as high as the
+    /// source's, scaled.
     double height_of(std::size_t foot, const Stand& stand, std::size_t i) const {
         if (stand.height != 0.0 || (i >= stand.still_first && i <= stand.still_last)) return stand.height;
         const std::size_t level = i < stand.still_first ? stand.still_first : stand.still_last;
         return task_.scale *
                std::max(0.0, pointed(foot, i).source_low - pointed(foot, level).source_low - max_rise);
     }
-    /// The sole's horizontal path during a stance. A small slide is a fault of the source and is removed; the
-    /// excess stays.
+    /// Horizontal path of the sole during a stance. A small slide is a fault of the source and is removed;
+    /// the rest of a larger one stays.
     std::vector<glm::dvec3> sole_path(std::size_t foot, const Stand& stand) const {
         const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
         std::vector<glm::dvec3> path{glm::dvec3(0.0)};
@@ -222,7 +222,7 @@ class Planner {
         }
         return path;
     }
-    /// The step of the part of the sole that is on the ground.
+    /// Move, in one step, of the part of the sole that is on the ground.
     glm::dvec3 pointed_step(std::size_t foot, std::size_t i) const {
         const std::size_t to = rounds_.step_to(i);
         const PointedFoot &was = task_.frames[to - 1].feet[foot], &now = task_.frames[to].feet[foot];
@@ -237,7 +237,7 @@ class Planner {
         return plus(minus(now.ankle, was.ankle), times(sum, 1.0 / weights));
     }
 
-    /// Between stances the displacement of one fades out while the next one's fades in.
+    /// Between stances, one displacement fades out while the next fades in.
     void swing(std::size_t foot) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         const std::vector<Stand>& stands = stands_[foot];
@@ -288,8 +288,9 @@ class Planner {
         return low > 0.0 ? low * low / (low + most) : 0.0;
     }
 
-    /// How far to lower the hips to bring the foot within reach. No leg becomes straighter than `straight`,
-    /// unless the source's is and its foot hardly moves: a leg that near to full length for one frame snaps.
+    /// Distance to lower the hips so that the foot is within reach. No leg becomes straighter than
+    /// `straight`, unless the source's is and its foot hardly moves: a leg that near to full length for one
+    /// frame snaps.
     double shortfall(std::size_t foot, std::size_t i) const {
         const PointedFoot& its = pointed(foot, i);
         const glm::dvec3 pointed_leg = minus(its.ankle, its.hip), leg = plus(pointed_leg, moves_[foot][i]);

@@ -1,7 +1,7 @@
-// Plans the feet of a retargeted motion, and how far the hips move for them. Not installed.
+// Plans the feet of a retargeted motion, and the movement of the hips for them. Not installed.
 //
 // Each leg starts out pointing like the source's. While the source's foot stands, the ankle is displaced so
-// that the sole stays on the ground; between stances one displacement blends into the next.
+// that the sole stays on the ground; between stances, one displacement blends into the next.
 #pragma once
 
 #include <array>
@@ -33,15 +33,15 @@ struct FootingTask {
     double scale = 1.0;                    ///< target metres per source metre
     double leg = 1.0;                      ///< the target's leg length
     double floor = 0.0;                    ///< the target's floor
-    double shift = 0.0;                    ///< how far to raise the hips if no foot stands
-    std::optional<double> source_floor{};  ///< the floor of the source's clip; none: feet hardly stand
+    double shift = 0.0;                    ///< lift of the hips if no foot stands
+    std::optional<double> source_floor{};  ///< floor of the source's clip; none if feet hardly stand
     double ground = 0.0;                   ///< the source's floor at rest
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};   ///< from the source's space to the target's
 };
 
 struct Footing {
-    double hips = 0.0;                 ///< how far the hips are raised, metres
-    std::array<glm::dvec3, 2> feet{};  ///< how far the ankles are moved, metres
+    double hips = 0.0;                 ///< lift of the hips, metres
+    std::array<glm::dvec3, 2> feet{};  ///< moves of the ankles, metres
 };
 
 /// One for each frame.

@@ -14,7 +14,7 @@ using Path = std::vector<std::size_t>;
 
 struct Pair {
     std::size_t a, b;
-    double reach;  // of the shorter limb
+    double reach;  // reach of the shorter limb
 };
 
 class Shape {
@@ -85,14 +85,14 @@ class Shape {
         return reach_[child] +
                length(minus(at(child), at(static_cast<std::size_t>(skeleton_[child].parent))));
     }
-    /// Whether `middle` lies between `a` and `b`, seen from above.
+    /// True if `middle` lies between `a` and `b`, seen from above.
     bool is_between(const glm::dvec3& middle, const glm::dvec3& a, const glm::dvec3& b) const {
         const glm::dvec3 way(b.x - a.x, 0.0, b.z - a.z);
         if (length(way) < 0.02 * height_) return false;
         const double part = dot(minus(middle, a), way) / dot(way, way);
         return part > 0.1 && part < 0.9;
     }
-    /// The two equal limbs, one on each side, that reach farthest.
+    /// The pair of equal limbs, one on each side, that reaches furthest.
     std::optional<Pair> pair_at(std::size_t node, bool down) const {
         const Path all = branches(node);
         std::optional<Pair> best;
@@ -126,7 +126,7 @@ class Shape {
         }
         return best;
     }
-    /// Where in a path the two longest consecutive bones of similar length begin.
+    /// Index in a path at which the two longest consecutive bones of similar length begin.
     std::optional<std::size_t> upper_of(const Path& path) const {
         std::optional<std::size_t> best;
         double most = 0.0;

@@ -1,4 +1,4 @@
-// Finds a body by its shape alone, for skeletons whose names say nothing. Not installed.
+// Finds a body by its shape alone, for skeletons without meaningful names. Not installed.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ struct ShapeReading {
     std::int32_t operator[](Bone bone) const noexcept { return nodes[static_cast<std::size_t>(bone)]; }
 };
 
-/// The hips are the node from which two equal limbs go down and a column goes up; on the column, two equal
-/// limbs branch; above that is the head. The two longest consecutive bones are a limb's upper and lower.
+/// The hips are the node from which two equal limbs go down and a column goes up. On the column, two equal
+/// limbs branch off; the head is above them. The two longest consecutive bones are a limb's upper and lower
+/// bones.
 ShapeReading read_shape(const Skeleton& skeleton);
 
 }  // namespace tendril::humanoid::detail

@@ -68,7 +68,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
             made.children_[next[static_cast<std::size_t>(nodes[i].parent)]++] = static_cast<std::int32_t>(i);
     made.nodes_ = std::move(nodes);
 
-    // Depth first from the roots, which do not reach the nodes of a cycle.
+    // Depth first from the roots, from which the nodes of a cycle cannot be reached.
     made.order_.reserve(count);
     std::vector<std::int32_t> open;
     for (std::size_t i = count; i-- > 0;)
@@ -85,7 +85,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
         for (const std::int32_t node : made.order_) reached[static_cast<std::size_t>(node)] = true;
         auto lost =
             static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
-        // The node may hang below the cycle: `count` steps up lead into it.
+        // The node may hang below the cycle: going up `count` steps leads into it.
         for (std::size_t i = 0; i < count; ++i) lost = static_cast<std::size_t>(made.nodes_[lost].parent);
         return refused("Skeleton", Argument("nodes", lost, "parent"), "a node that is not below it",
                        made.nodes_[lost].parent);

@@ -19,8 +19,8 @@ using tendril::detail::refused;
 constexpr Bone legs[2][4]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                           {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
-// In leg lengths, from the project's own figure, whose leg is 0.85 m; heel_part: in distances from ankle to
-// toe.
+// In leg lengths, from the project's own figure, whose leg is 0.85 m. heel_part is a fraction of the distance
+// from ankle to toe.
 constexpr double ball_part = 0.15 / 0.85, heel_part = 1.0 / 3.0, sole_part = 0.02 / 0.85,
                  ankle_part = 0.09 / 0.85;
 
@@ -81,8 +81,8 @@ class Finder {
         const glm::dvec3 ankle = position(leg[2]);
         glm::dvec3 toe = at_[sole.toes].position;
         if (sole.toes == sole.foot) toe = at_[end_of_foot(leg[2])].position;
-        // The toe tip is farther than the ball, over which a foot rolls, and some skeletons have the toe
-        // joint next to the ankle.
+        // The toe tip is further away than the ball, over which a foot rolls, and in some skeletons the toe
+        // joint is next to the ankle.
         const glm::dvec3 way = level(minus(toe, ankle));
         const double size = length(way), ball = ball_part * soles.leg;
         const double part = sole.toes == sole.foot ? std::min(size, ball) : std::max(size, 0.6 * ball);
@@ -98,7 +98,7 @@ class Finder {
     std::vector<Placement> at_;
 };
 
-/// Heel and toe of a foot that stands on its points, from their heights above the ground.
+/// Heel and toe of a standing foot, from the heights of its points above the ground.
 Sole stood_sole(const Sole& sole, const lint_detail::Foot& foot, std::span<const Placement> rest) {
     const auto above = [&](std::size_t node) {
         const auto point = std::ranges::find(foot.points, node, &lint_detail::SolePoint::node);

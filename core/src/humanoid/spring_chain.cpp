@@ -17,7 +17,7 @@ using namespace rig::detail;
 using tendril::detail::refused;
 
 constexpr double shortest = 1e-9;
-constexpr double unmoved = 1e-7;  // metres: rounding when a pose is computed again
+constexpr double unmoved = 1e-7;  // metres: rounding when a pose is recomputed
 constexpr auto no_index = static_cast<std::size_t>(-1);
 
 enum class Time : std::uint8_t { Passes, Stands, Jumps };
@@ -37,13 +37,13 @@ double beam(double part) noexcept {
     return part * part * (6.0 - 4.0 * part + part * part) / 3.0;
 }
 
-/// Advances the mass by one step, in which its target moves to `target` at constant velocity. Keeps it within
-/// `reach` of the target.
+/// Advances the mass by one step, during which its target moves to `target` at constant velocity. Keeps it
+/// within `reach` of the target.
 void spring(SpringMass& mass, const glm::dvec3& target, double strength, double damping, double reach,
             double dt) noexcept {
     const glm::dvec3 pace = times(minus(target, mass.target), 1.0 / dt);
     const glm::dvec3 velocity = mass.has_velocity ? minus(mass.velocity, pace) : glm::dvec3(0.0);
-    // NaN fails these comparisons, too.
+    // NaN fails these comparisons too.
     const bool sound = length(pace) <= SpringChain::max_speed && length(velocity) <= SpringChain::max_speed &&
                        signal::is_input(minus(mass.position, mass.target));
     if (!sound) {
@@ -68,7 +68,8 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
             .has_velocity = true};
 }
 
-/// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may put it anywhere.
+/// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may have moved it
+/// anywhere.
 glm::dvec3 clamped_offset(const SpringMass& mass, double reach) noexcept {
     const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
@@ -76,9 +77,9 @@ glm::dvec3 clamped_offset(const SpringMass& mass, double reach) noexcept {
     return away > reach ? times(way, reach / away) : way;
 }
 
-/// The direction nearest to `points` in which the tip of a bone of that length is outside all colliders. In
+/// The direction closest to `points` in which the tip of a bone of that length is outside all colliders. In
 /// the plane of bone and collider the law of cosines gives the angle at the base. Overlapping colliders, and
-/// the other end of a capsule, take more rounds.
+/// the other end of a capsule, need more rounds.
 glm::dvec3 push_out(std::span<const PlacedCapsule> colliders, double margin, const glm::dvec3& base,
                     double bone, glm::dvec3 points) noexcept {
     constexpr int rounds = 8;
@@ -108,7 +109,8 @@ glm::dvec3 push_out(std::span<const PlacedCapsule> colliders, double margin, con
     }
     return points;
 }
-/// A tip's remaining velocity after a collider turned its bone: no part along the bone or back inside.
+/// Remaining velocity of a tip after a collider turned its bone: without the parts along the bone and back
+/// inside.
 glm::dvec3 deflected(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
     const glm::dvec3 left = across(velocity, free);
     const auto out = direction_of(across(minus(free, inside), free), 0.0);

@@ -1,4 +1,4 @@
-// How high a foot in the air must be to clear the ground ahead.
+// The height that a foot in the air needs to clear the ground ahead.
 #include "humanoid/foot.hpp"
 
 #include <algorithm>
@@ -9,16 +9,16 @@ namespace {
 
 using namespace rig::detail;
 
-/// How far ahead of the foot the ground is sampled, metres, and the number of samples.
+/// Distance ahead of the foot over which the ground is sampled, metres, and the number of samples.
 constexpr double look_ahead = 0.8;
 constexpr int samples = 8;
-/// A foot rises for the ground ahead at this fraction of max_speed, and aims to be up this many seconds
-/// before the edge, because its lift lags behind its goal by as much.
+/// A foot rises for the ground ahead at this fraction of max_speed. It aims to be up this many seconds before
+/// the edge, because its lift lags behind its goal by as much.
 constexpr double rise_part = 0.6, lead_time = 0.04;
-/// A foot that speeds up is assumed to do so for this many more seconds.
+/// A foot that accelerates is assumed to do so for this many more seconds.
 constexpr double speedup_time = 0.1;
 
-/// Predicts when a foot gets to a point along its way, from its speed and acceleration.
+/// Predicts when a foot reaches a point on its path, from its speed and acceleration.
 class SwingMotion {
   public:
     SwingMotion(const SwingSole& sole, double dt) noexcept : speed_(length(sole.velocity)) {
@@ -28,7 +28,7 @@ class SwingMotion {
     }
     const glm::dvec3& along() const noexcept { return along_; }
     bool moves() const noexcept { return speed_ > 1e-9; }
-    /// Seconds until the foot has gone `way`; 1e9 if it stops short of it.
+    /// Seconds until the foot has covered `way`; 1e9 if it stops short of it.
     double time_to(double way) const noexcept {
         if (!(way > 0.0)) return 0.0;
         if (!(speed_ > 1e-9)) return 1e9;
@@ -71,7 +71,7 @@ Clearance find_clearance(const SwingSole& sole, double from, const FootContext& 
         return check_ground(hit, context) == FootAlone::No ? hit->height - plane(point) : 0.0;
     };
     Clearance clearance;
-    // Raises every point that will come to `where`.
+    // Raises every point that will pass `where`.
     const auto pass = [&](double where, double high) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (at[i] > where + 1e-9) continue;

@@ -27,7 +27,7 @@ std::optional<glm::dvec3> foot_at_rest(const Skeleton& skeleton, const BoneMap& 
     return direction_of(minus(rest[end].position, rest[node].position), 1e-9);
 }
 
-/// How a foot stands, derived from its rest pose.
+/// The standing pose of a foot, derived from its rest pose.
 class Standing {
   public:
     Standing(const Skeleton& skeleton, const BoneMap& map, const std::vector<Placement>& rest,
@@ -49,7 +49,7 @@ class Standing {
     }
 
   private:
-    /// Whether it points forward: at most 60 degrees out or in, from 20 degrees above level to 70 below.
+    /// True if it points forward: at most 60 degrees out or in, from 20 degrees above level to 70 below.
     bool stands(const glm::dvec3& foot) const {
         const double ahead = dot(foot, at_.forward), aside = dot(foot, at_.left), high = dot(foot, at_.up);
         return high < 0.342 && high > -0.94 && ahead > 0.5 * std::sqrt(ahead * ahead + aside * aside);

@@ -1,4 +1,4 @@
-// Whether the head sees a target, eased. Not installed.
+// Tells whether the head sees a target, with easing. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// The head, and the direction in which it looks.
+/// The head and its viewing direction.
 struct Head {
     std::vector<std::int32_t> path{};   // from the root down to the head
     glm::dvec3 forward{0.0, 0.0, 1.0};  // in the head's own space
@@ -37,7 +37,7 @@ struct Head {
     }
 };
 
-/// A target in view stays so until it is this far outside, radians, which avoids flicker at the edge.
+/// A target in view stays in view until it is this far outside, radians, which avoids flicker at the edge.
 inline constexpr double view_margin = 0.05;
 
 /// Advances `view` towards 1 if the target is in the cone, otherwise towards 0; at once on the first step.

@@ -1,4 +1,4 @@
-// Figures that lie on their side because their file has another up axis.
+// Figures that lie on their side because their file has a different up axis.
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
@@ -65,7 +65,7 @@ std::optional<Poses> poses_of(const Skeleton& skeleton, const BoneMap& map, cons
 
 constexpr double aligned = 0.9;  // cosine of 26 degrees
 
-/// Whether the figure is upright in the clip, on average within 45 degrees: then only the rest pose lies, as
+/// True if the figure is upright in the clip, on average within 45 degrees. Then only the rest pose lies, as
 /// in files that store motion relative to an arbitrary pose.
 bool stands_in(const Poses& poses) {
     glm::dvec3 sum(0.0);

@@ -13,7 +13,7 @@ namespace {
 using namespace rig::detail;
 
 /// Degrees by which decent clips exceed the default limits: most for captured heads mapped to the end of the
-/// neck, least for knees; for elbows less than the 40 of an elbow that bends backwards.
+/// neck, least for knees. For elbows it is less than the 40 of an elbow that bends backwards.
 double tolerance(Bone bone) noexcept {
     switch (bone) {
         case Bone::LeftLowerLeg:
@@ -35,9 +35,9 @@ struct Arm {
 constexpr Arm arms[]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm},
                      {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm}};
 
-/// Radians by which an elbow exceeds the range of the arm. Rigs divide an arm's twist between collar bone,
-/// upper arm and forearm as they like, so only the sum matters: the elbow may bend to any side to which the
-/// upper arm can twist it, seen from the chest.
+/// Radians by which an elbow exceeds the range of the arm. Rigs divide an arm's twist freely between collar
+/// bone, upper arm and forearm, so only the sum matters: the elbow may bend to any side to which the upper
+/// arm can twist it, seen from the chest.
 double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<Placement>& placed) {
     const ik::Limit &shoulder = joints.limit(arm.upper), &elbow = joints.limit(arm.lower);
     const glm::dvec3 along = joints.direction(arm.upper);
@@ -62,8 +62,8 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
 }
 
 /// The smallest turn that brings a ball joint within its limit, radians, by compass search (T. Kolda, R.
-/// Lewis, V. Torczon, SIAM Review 45(3), 2003). The excesses of cone and twist are too large where the bone
-/// points nearly against its rest, since any twist is a swing to another side there.
+/// Lewis, V. Torczon, SIAM Review 45(3), 2003). The separate excesses of cone and twist are too large if the
+/// bone points nearly against its rest, since any twist there is a swing to another side.
 double correction(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
     const ik::detail::LimitedJoint joint = ik::detail::limited_joint(limit, math::narrow(along));
     const glm::quat wanted(static_cast<float>(turn.w), static_cast<float>(turn.x), static_cast<float>(turn.y),
@@ -91,7 +91,7 @@ double correction(const ik::Limit& limit, const glm::dvec3& along, const glm::dq
     return least;
 }
 
-/// The smallest turn that brings a hinge within its limit, radians: bends sideways and twists count too.
+/// The smallest turn that brings a hinge within its limit, radians, including sideways bends and twists.
 double hinge_correction(const ik::Limit& limit, const glm::dquat& turn) {
     const glm::dvec3 axis = math::wide(limit.axis);
     const double within = std::clamp(detail::hinge_angle(axis, turn), static_cast<double>(limit.min),
@@ -99,7 +99,7 @@ double hinge_correction(const ik::Limit& limit, const glm::dquat& turn) {
     return 2.0 * half_angle_between(rotation_about(axis, within), turn);
 }
 
-/// How far a joint is beyond its limit, radians; for a ball joint over `most`, the smallest turn back.
+/// Radians by which a joint exceeds its limit; for a ball joint over `most`, the smallest turn back.
 double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed, bool by_default,
                  double most) {
     for (const Arm& arm : arms)
@@ -113,14 +113,14 @@ double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placemen
                                       : correction(limit, joints.direction(bone), joints.turn(bone, placed));
 }
 
-/// The first and the worst frame of a joint's stay beyond its limit.
+/// The first and the worst frame of a joint's excursion beyond its limit.
 struct Excursion {
     bool is_beyond = false;
     std::size_t first = 0, worst = 0;
     double most = 0.0;  // degrees
 };
 
-/// Default limits must be exceeded for longer than this: a hinge's angle jumps when it is turned about
+/// Default limits must be exceeded for longer than this: a hinge's angle jumps when the hinge is turned about
 /// another axis.
 constexpr double shortest = 0.1;  // seconds
 

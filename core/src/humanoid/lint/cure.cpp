@@ -48,9 +48,9 @@ double alignment(const glm::dvec3&, const glm::dvec3&) {
 }
 
 /// Call after changing the keys from `first` to `last`. Gives a cubic track new tangents at these keys and
-/// their neighbours, the slopes between neighbouring keys, since exporters derive the neighbours' tangents
-/// from the bad values, too. Negates quaternions where the sign changes, since a cubic does not take the
-/// short way, and the rest of the track with them, so that its keys keep their relative signs.
+/// their neighbours: the slopes between neighbouring keys, since exporters derive the neighbours' tangents
+/// from the bad values too. Negates quaternions where the sign changes, since a cubic does not take the short
+/// way; the rest of the track is negated with them, so that its keys keep their relative signs.
 template <class T>
 void refit_tangents(Track<T>& track, double first, double last) {
     if (track.interpolation != Interpolation::Cubic) return;
@@ -88,8 +88,8 @@ void fill_gap(const Channel& was, Track<T>& track, double before, double first, 
     refit_tangents(track, first, last);
 }
 
-/// Spreads the jump between two times over the keys around it: those before it take half of it early, those
-/// after it the other half late.
+/// Spreads the jump between two times over the keys around it: the keys before it make half of it early,
+/// those after it the other half late.
 template <class T>
 void spread_jump(const Channel& was, Track<T>& track, double before, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);
@@ -221,7 +221,7 @@ double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& repor
     return worst;
 }
 
-/// Whether a leg joint turns faster than before, and than the lint tolerates.
+/// True if a leg joint turns faster than before, and faster than the lint tolerates.
 bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, const LintSettings& settings,
                   const LintReport& report) {
     for (const Bone bone : {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::RightUpperLeg,

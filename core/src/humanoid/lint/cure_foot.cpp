@@ -2,7 +2,7 @@
 // blends into the clip's motion before and after. Faults of one foot that follow each other closely are cured
 // together. If the leg is too short, the hips are lowered, and the other foot stays in place.
 //
-// Also cures a leg that snaps straight. Near its full length, the smallest move of the foot turns the knee by
+// Also cures a leg that snaps straight. Near full length, the smallest move of the foot can turn the knee by
 // any angle. Soft IK (A. Nicholas, "Soft IK", 2009) avoids that: over the last part, the distance from hip to
 // foot approaches the leg's full length exponentially. Every leg solved here is soft from the first frame in
 // which it is that long to the last: a leg that is soft in one frame and straight in the next would snap.
@@ -48,7 +48,7 @@ std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const
         }
         moves.push_back({-slid.x, 0.0, -slid.z});
     }
-    // A sliding foot is put in the middle of its path, which keeps the correction small.
+    // Put a sliding foot in the middle of its path, which keeps the correction small.
     for (glm::dvec3& move : moves) move = plus(move, times(plus(low, high), 0.5));
     return moves;
 }
@@ -75,7 +75,7 @@ class CuredLeg {
     detail::LimbPlacement placed(std::vector<rig::Transform>& pose) const {
         return detail::place(limb_, Placement{}, pose);
     }
-    /// Whether the clip stretches the leg so far that soft IK shortens it.
+    /// True if the clip stretches the leg so far that soft IK shortens it.
     bool is_soft(std::size_t frame) const { return lengths_[frame] > soft_start(); }
     /// The distance from hip to foot after soft IK, metres.
     double softened(double far) const {
@@ -83,7 +83,7 @@ class CuredLeg {
         return soft_start() + soft_ * (1.0 - math::decay((far - soft_start()) / soft_));
     }
 
-    /// Brings the leg's end to a position, or as near as `longest` lets it; the end keeps its rotation. The
+    /// Brings the leg's end to a position, or as near as `longest` allows; the end keeps its rotation. The
     /// knee keeps its side, but the further it must bend, the more it takes the side to which it bends in the
     /// whole clip, because a straight leg has none.
     void reach_for(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
@@ -99,7 +99,7 @@ class CuredLeg {
 
   private:
     double soft_start() const noexcept { return full_ - soft_; }
-    /// Approximate distance of the knee from the line, for a leg of that length; in leg lengths.
+    /// Approximate distance of the knee from the line, for a leg of length `far`; in leg lengths.
     double bend(double far) const {
         return full_ > 0.0 ? 0.5 * std::sqrt(std::max(1.0 - far * far / (full_ * full_), 0.0)) : 0.0;
     }
@@ -127,7 +127,7 @@ class CuredLegs {
     }
     const CuredLeg& foot() const noexcept { return foot_; }
 
-    /// How far the hips must be lowered for the foot to reach its corrected position, metres.
+    /// Distance by which the hips must be lowered for the foot to reach its corrected position, metres.
     double shortfall(std::size_t frame, const glm::dvec3& move) {
         sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
         const detail::LimbPlacement at = foot_.placed(pose_);
@@ -185,7 +185,7 @@ class CuredLegs {
     std::vector<rig::Transform> pose_;
 };
 
-/// The corrections of some stretches of frames, blended into each other and into the clip.
+/// Corrections of several ranges of frames, blended into each other and into the clip.
 class Blend {
   public:
     Blend(std::size_t frames, std::size_t around) : moves_(frames), around_(around) {}
@@ -251,7 +251,7 @@ Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height hei
     return plan;
 }
 
-/// The finding, and the same faults of that foot before and after it, each within `near` frames of the next.
+/// The finding and the same faults of this foot before and after it, each within `near` frames of the next.
 std::vector<Finding> adjacent_findings(const Check& check, const Finding& found, std::size_t near) {
     LintReport report = check.report;
     Check feet{check.skeleton, check.map, check.clip, check.settings, check.height, report};

@@ -8,14 +8,14 @@ namespace {
 
 using namespace rig::detail;
 
-// A stance begins under the speed `enter`, ends over `leave`, and stays lower than `low`. A standing foot
-// that slips briefly without being lifted has not taken a step.
+// A stance begins below the speed `enter_speed`, ends above `leave_speed`, and stays lower than `low`. A
+// standing foot that slips briefly without being lifted has not taken a step.
 constexpr double enter_speed = 0.6, leave_speed = 1.2, low = 0.03;  // m/s, m
 constexpr double max_lift = 0.025, min_step_time = 0.1;             // m, s
 constexpr double landing_time = 0.05;                               // s
 
 /// A stance without its landing and lift-off: from the first to the last still frame. A foot that is never
-/// still slides throughout: a fixed time is cut from both ends.
+/// still slides throughout; then a fixed time is cut from both ends.
 FrameRange without_ends(const FrameRange& stance, const Foot& foot, double rate) {
     FrameRange core = stance;
     while (core.first < core.last && !foot.still[core.first]) ++core.first;
@@ -94,7 +94,7 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
         for (std::size_t i = each.first; i <= each.last; ++i)
             if (foot.height[i] < foot.height[worst]) worst = i;
         const double amount = 1000.0 * (floor - foot.height[worst]);
-        if (amount > 1000.0 * most) continue;  // another floor: stairs, a pit
+        if (amount > 1000.0 * most) continue;  // on another floor: stairs, a pit
         check.add(Fault::Sinking, foot.node, worst, each.first, each.last, amount, "mm",
                   "is " + shown(amount) + " mm below the floor");
     }
@@ -130,7 +130,7 @@ std::vector<FrameRange> stances_of(const Foot& foot, double floor, double rate) 
     return found;
 }
 
-/// Also covers the points in between: the motion of a rigid foot is linear in the point.
+/// Covers the points in between too: the motion of a rigid foot is linear in the point.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {
     glm::dvec3 best(1e9);
     const auto consider = [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -178,8 +178,8 @@ void check_feet(Check& check) {
     check.report.has_floor = true;
     check.report.floor = *floor;
     const double unknown = motion.has_soles ? 0.0 : 0.015;
-    // For an in-place clip the ground's speed is a guess, and real hips vary in speed within a step. If no
-    // foot is ever still, the moment of landing is unknown.
+    // For an in-place clip the ground's speed is an estimate, and real hips vary in speed within a step. If
+    // no foot is ever still, the moment of landing is unknown.
     const double slide = std::max(check.settings.skating + unknown + (motion.always_slides ? 0.02 : 0.0),
                                   0.15 * level(motion.treadmill));
     for (const Foot& foot : motion.feet) {

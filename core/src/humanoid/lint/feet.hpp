@@ -1,4 +1,4 @@
-// Where the feet of a clip are, frame by frame. Not installed.
+// Positions of a clip's feet, frame by frame. Not installed.
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,9 @@ using detail::Limb;
 inline constexpr double min_stance = 0.15;  // seconds
 
 /// A point of the sole: a node of the foot, lowered by its height above the ground when the foot stands flat.
-/// The offset does not turn with the foot, so that errors in the sole do not grow when the foot tilts. That
-/// is why find_soles()'s heel and toe are not used: foot IK has to turn them along, but they are guessed from
-/// the rest pose, and a clip must not be blamed for a guess.
+/// The offset does not turn with the foot, so that errors in the sole do not grow when the foot tilts. The
+/// heel and toe of find_soles() are not used: foot IK must turn them along, but they are guesses from the
+/// rest pose, and a clip must not be blamed for a guess.
 struct SolePoint {
     std::size_t node;
     double above;  ///< metres
@@ -31,7 +31,7 @@ struct Foot {
     std::vector<glm::dvec3> ups{};        ///< up, in the foot's own space
     std::vector<double> speed{};          ///< speed of the point that moves the least, m/s
     std::vector<double> min_speed{};      ///< the slower of the speeds into and out of the frame, m/s
-    std::vector<bool> still{};            ///< it does not move, not even vertically
+    std::vector<bool> still{};            ///< no movement, not even vertically
     std::vector<bool> upright{};          ///< the hips are up: the figure neither sits nor lies
     std::vector<double> height{};         ///< height of the lowest point
     std::vector<double> tilt{};           ///< from standing flat, degrees

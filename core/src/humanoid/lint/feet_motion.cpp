@@ -39,7 +39,7 @@ Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>&
     return foot;
 }
 
-/// Whether both feet of the rest pose are on one level, and whether that is the ground.
+/// Properties of the rest pose: both feet are level; both are on the ground.
 struct Rest {
     bool is_level = true, is_ground = false;
 };
@@ -56,13 +56,13 @@ Rest measure_rest(std::vector<Foot>& feet, double hips) {
     if (!rest.is_ground)
         for (Foot& foot : feet)
             for (SolePoint& point : foot.points) point.above -= ground;
-    // The toe tip gives and dips a little as a foot rolls off: count it as 15 mm higher.
+    // The toe tip flexes and dips a little as a foot rolls off: treat it as 15 mm higher.
     for (Foot& foot : feet)
         if (foot.points.size() == 3) foot.points.back().above -= 0.015;
     return rest;
 }
 
-/// A point's position and the up direction there, as if the ground were a level floor at height 0.
+/// A point's position, and the up direction there, as if the ground were a level floor at height 0.
 struct OnGround {
     glm::dvec3 position, up;
 };
@@ -75,7 +75,7 @@ OnGround on_ground(const Ground* ground, const glm::dvec3& position) {
     return {{position.x, position.y - hit->height, position.z}, hit->normal};
 }
 
-/// Whether the hips are up over a foot, and the head over the hips, relative to their distances at rest.
+/// True if the hips are above a foot, and the head above the hips, relative to their distances at rest.
 bool is_upright(const Check& check, std::int32_t foot, const std::vector<Placement>& rest,
                 const std::vector<Placement>& now) {
     constexpr double risen = 0.6;  // fraction of those; on a chair hips are at 0.5, a lying head at 0.1
@@ -181,7 +181,7 @@ bool find_still(std::vector<Foot>& feet, double below) {
     return any;
 }
 
-/// Whether standing feet are tilted as at rest: a fifth of them if the rest pose stands on the ground,
+/// True if standing feet are tilted as at rest: a fifth of them if the rest pose stands on the ground,
 /// otherwise most.
 bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
     std::vector<double> tilts;

@@ -15,7 +15,7 @@ glm::dvec3 middle(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return times(plus(a, b), 0.5);
 }
 
-/// Moves, with the first and the last one repeated beyond the ends.
+/// A list of moves, with the first and the last one repeated beyond the ends.
 class Moves {
   public:
     explicit Moves(const std::vector<glm::dvec3>& moves) : moves_(moves) {}
@@ -30,10 +30,10 @@ class Moves {
     const std::vector<glm::dvec3>& moves_;
 };
 
-/// How far frames i to i + held - 1 depart from those before and after; 0 if they do not. They depart if
-/// shifting them back leaves a smooth motion: a cubic through the two frames before and the two after meets
-/// each frame. So a fast motion, which turns by tens of degrees a frame and changes as fast, is no departure,
-/// and hides none.
+/// Size of the departure of frames i to i + held - 1 from the frames around them; 0 if they do not depart.
+/// They depart if shifting them back leaves a smooth motion: a cubic through the two frames before and the
+/// two after meets each frame. So a fast motion, which turns by tens of degrees a frame and changes as fast,
+/// is not a departure and hides none.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
     constexpr double min_ratio = 8.0;
     const auto frames = static_cast<double>(held);
@@ -53,7 +53,7 @@ double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double m
     return size;
 }
 
-/// How far the motion jumps at frame i without coming back; 0 if it does not.
+/// Size of the motion's jump at frame i if it does not come back; otherwise 0.
 double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     constexpr double min_ratio = 3.0;
     const glm::dvec3 &before = moves[i - 1], &after = moves[i + 1];
@@ -64,8 +64,8 @@ double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     return size > min_ratio * change ? size : 0.0;
 }
 
-/// Whether to judge a track. Steps are intended: in all of a Step track, or (skip_steps) where two keys are
-/// at one time, as in files whose curves are held and interpolated in turn.
+/// True if a track is to be judged. Steps are intended throughout a Step track, or (skip_steps) where two
+/// keys are at one time, as in files whose curves are held and interpolated in turn.
 template <class T>
 bool is_checked(const Track<T>& track) {
     return track.times.size() > 2 && track.interpolation != Interpolation::Step;
@@ -182,7 +182,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
     if (count < 6) return found;
     const Moves moves(list);
     for (std::ptrdiff_t i = 1; i < count; ++i) {
-        // Departures of one to three frames first: they would also look like two jumps.
+        // Check departures of one to three frames first: they would also look like two jumps.
         double amount = 0.0;
         std::ptrdiff_t until = count;
         for (std::ptrdiff_t held = 1; held <= 3 && amount == 0.0 && i + held < count; ++held) {

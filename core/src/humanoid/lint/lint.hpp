@@ -33,7 +33,7 @@ struct Check {
                  double amount, const char* unit, const std::string& text);
 };
 
-/// A clip's report before any check: only rate and frames are set.
+/// An empty report on a clip: only rate and frames are set.
 LintReport blank_report(const Clip& clip, const LintSettings& settings);
 
 void check_feet(Check& check);
@@ -45,15 +45,15 @@ void check_sizes(Check& check);
 void check_axis(Check& check);
 
 struct Outlier {
-    std::size_t frame;  ///< the first that departs from the motion
-    std::size_t until;  ///< the first that is back; the number of frames if none is
-    double amount;      ///< how far it departs
+    std::size_t frame;  ///< the first frame that departs from the motion
+    std::size_t until;  ///< the first frame back on it; the number of frames if none is
+    double amount;      ///< size of the departure
 };
 /// Finds departures over `minimum` that stand out from the motion around them. `moves[i]` is the motion from
 /// frame i - 1 to frame i; moves[0] is not read.
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
-/// Scales thresholds given for 60 frames per second: at fewer, more happens in each frame.
+/// Scales thresholds that are given for 60 frames per second: at lower rates, more happens in each frame.
 inline double fps_scale(double rate) noexcept {
     return (2.0 + 60.0 / rate) / 3.0;
 }
@@ -62,7 +62,7 @@ inline double fps_scale(double rate) noexcept {
 inline double falloff(double u) noexcept {
     return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
 }
-/// The median of at least one value, the greater of two in the middle. Reorders the values.
+/// The median of at least one value, the larger of two in the middle. Reorders the values.
 inline double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -84,8 +84,8 @@ struct FootCure {
     double nearer = 0.005;  ///< metres that soft IK brings a foot nearer to the hip at a leg's full length
 };
 
-/// The clip without the fault: the foot stands, or its leg no longer snaps. Refuses a finding that is not one
-/// of the clip's.
+/// The clip without the fault: the foot stands, or its leg no longer snaps. Refuses a finding that is not in
+/// the clip.
 Expected<Clip> cure_foot(const Check& check, const Finding& finding, const FootCure& options);
 
 }  // namespace tendril::humanoid::lint_detail

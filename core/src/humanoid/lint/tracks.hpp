@@ -33,9 +33,9 @@ inline glm::dquat near_to(const glm::dquat& other, const glm::dquat& value) noex
 
 }  // namespace tracks_detail
 
-/// Replaces the keys of `track` from times.front() to times.back(). Outside that range its values stay the
-/// same. Its interpolation stays, and cubic keys get tangents. `times`: two or more, increasing. `was`: the
-/// channel before the change.
+/// Replaces the keys of `track` from times.front() to times.back(). Values outside that range do not change.
+/// The interpolation stays; cubic keys get tangents. `times`: two or more, increasing. `was`: the channel
+/// before the change.
 template <class T>
 void replace_keys(const Channel& was, Track<T>& track, const std::vector<double>& times,
                   std::vector<T> values) {
