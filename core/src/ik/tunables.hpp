@@ -1,5 +1,5 @@
-// Every constant of core/ik that was chosen rather than derived: what it was measured on, and what happens
-// with other values. Not installed.
+// Every constant of core/ik that was chosen rather than derived, with its measurements and the effect of
+// other values. Not installed.
 //
 // Constants that only allow for float rounding (1e-6 of the reach and the like) stay where they are used; so
 // do the step counts of closed forms (Newton's iterations on an arc or an ellipse).
@@ -32,9 +32,9 @@ inline constexpr float stall_moves = 1e-5f;
 inline constexpr int max_perturbations = 4;
 
 /// Accelerated FABRIK is perturbed after this many successive iterations that each left more than this
-/// fraction of the residual: usually one or two remove all of it, unless the chain lies folded nearly on a
-/// line. Without it 4.2 instead of 3.5 iterations from a straight pose and 4.1 instead of 3.7 from a folded
-/// one; the same chains arrive.
+/// fraction of the residual. Usually one or two iterations remove all of it, unless the chain lies folded
+/// nearly on a line. Without it 4.2 instead of 3.5 iterations from a straight pose and 4.1 instead of 3.7
+/// from a folded one; the same chains arrive.
 inline constexpr int slow_window = 2;
 inline constexpr float slow_part = 0.8f;
 
@@ -45,14 +45,14 @@ inline constexpr float bend_angle = 0.2f;
 
 /// With fewer bones the accelerated step costs more than the passes, so every other iteration skips it.
 /// Measured with 3 to 7 bones from random poses: targets at 0.05 to 0.9 of the reach then take 5 to 15 % less
-/// time, those further out 10 to 30 % more, at two iterations instead of one. Without skipping, 4 bones take
-/// 1.3 instead of 1.8 iterations.
+/// time, targets further out 10 to 30 % more, at two iterations instead of one. Without skipping, 4 bones
+/// take 1.3 instead of 1.8 iterations.
 inline constexpr std::size_t few_bones = 8;
 /// Spans evaluated per family of shapes (regula falsi). 1 or 3: 0.04 to 0.24 more iterations, or 0.02 to 0.13
 /// fewer; the same chains arrive.
 inline constexpr int tries = 2;
-/// Values of t^2 at which the bones of a bent chain point sideways, and at which even the faintest bend has
-/// become that strong.
+/// Values of t^2: at the first, the bones of a bent chain point sideways; at the second, even the faintest
+/// bend has become that strong.
 inline constexpr float strong_bend = 1e6f, max_bend = 1e10f;
 
 }  // namespace chain
@@ -60,10 +60,10 @@ inline constexpr float strong_bend = 1e6f, max_bend = 1e10f;
 namespace jacobian {
 
 /// Fraction of the reach to which the error is clamped (after Buss 2004), because J predicts the tip's move
-/// only nearby. Without: DLS takes 7.7 instead of 6.4 iterations with 10 bones, 5.0 instead of 4.8 with 4.
+/// only nearby. Unclamped, DLS takes 7.7 instead of 6.4 iterations with 10 bones, 5.0 instead of 4.8 with 4.
 inline constexpr double max_error = 0.5;
-/// Maximum rotation, radians per iteration, for the same reason. Without: 6.0 instead of 5.4 iterations from
-/// a straight pose, otherwise the same.
+/// Maximum rotation, radians per iteration, for the same reason. Unlimited: 6.0 instead of 5.4 iterations
+/// from a straight pose, otherwise the same.
 inline constexpr double max_rotation = 1.0;
 /// Fraction of the reach: singular values below this are damped by the SVD method (jacobian.cpp).
 inline constexpr double small_singular = 0.4;
@@ -90,11 +90,11 @@ inline constexpr float min_part = 0.1f, tie_error = 1e-4f;
 /// Methods without restarts. 10 or 40 instead of 20: of targets anywhere, DLS reaches up to 0.7 percentage
 /// points fewer, or up to 0.3 more, in a third less time or up to twice the iterations.
 inline constexpr StallRule stall{.window = 20, .relative = 1e-3f};
-/// Least squares. A window of 1: a third of the time for targets out of the limits' reach, but the tip ends
-/// at 0.181 instead of 0.164 of the reach from them; of 4: half as many iterations again for 0.163. Relative
-/// 1e-3: a tenth more iterations, 1e-2: a tenth fewer; the same arms arrive to 0.1 percent.
+/// Least squares. A window of 1 takes a third of the time for targets out of the limits' reach, but the tip
+/// ends at 0.181 instead of 0.164 of the reach from them; 4 takes half as many iterations again for 0.163.
+/// Relative 1e-3: a tenth more iterations, 1e-2: a tenth fewer; the same arms arrive to 0.1 percent.
 inline constexpr StallRule step_stall{.window = 2, .relative = 3e-3f};
-/// Fraction of the reach: a step that promises a smaller gain is lost in rounding, and not taken.
+/// Fraction of the reach: a step that promises a smaller gain is not taken, since rounding would swallow it.
 inline constexpr float min_gain = 2e-7f;
 /// FABRIK's passes continue while a pair leaves less than this fraction of the error. With only one pair the
 /// same arms arrive, a quarter of an iteration to one iteration sooner.
@@ -128,17 +128,18 @@ namespace explain {
 inline constexpr int iterations = 60;
 inline constexpr std::size_t max_candidates = 4;  ///< joints to free
 inline constexpr int halvings = 8;                ///< bisections of the best joint's range: to 0.4 % of it
-inline constexpr float fine = 1e-4f;              ///< fraction of the reach: a smaller error has arrived
+inline constexpr float fine = 1e-4f;              ///< fraction of the reach: a smaller error counts as
+                                                  ///< arrived
 inline constexpr float min_gain_part = 1e-3f;     ///< of the remaining distance: a smaller gain is ignored
 
 }  // namespace explain
 
-/// tests/core/ik_pole_test.cpp checks what these guarantee: targets that move by 0.1 mm never move a joint of
-/// a 1 m chain by more than 5 mm.
+/// tests/core/ik_pole_test.cpp checks the guarantee of these: targets that move by 0.1 mm never move a joint
+/// of a 1 m chain by more than 5 mm.
 namespace pole {
 
-/// How far a joint may move to face its pole: `free_part` of the reach in each solve, plus `follow` times
-/// what target, pole and joints have moved since the last one.
+/// Maximum move of a joint to face its pole: `free_part` of the reach in each solve, plus `follow` times the
+/// distance that target, pole and joints have moved since the last one.
 inline constexpr double free_part = 5e-4, follow = 20.0;
 /// A change larger than this fraction of the reach is a jump, after which nothing is limited.
 inline constexpr double jump = 0.02;
@@ -155,7 +156,7 @@ inline constexpr double closed_tip = 0.01;
 namespace tree {
 
 /// The first iteration with a Newton step: reaching alone finds the rough shape and moves the joints least.
-/// From the first iteration on it takes 1.9 instead of 3.2 iterations; from the fifth on 4.2.
+/// Starting at the first iteration takes 1.9 instead of 3.2 iterations, at the fifth 4.2.
 inline constexpr int newton_from = 3;
 inline constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
 inline constexpr double damping_falls = 0.25, damping_grows = 8.0;
@@ -184,18 +185,18 @@ inline constexpr int next_burst = 2;
 /// Active chains leave a block that has fewer of them than this fraction.
 inline constexpr double block_part = 0.5;
 
-/// With fewer active chains within limits than this fraction of a register, they leave it. 3/8: a twentieth
-/// more time; 1/2: a tenth.
+/// Active chains within limits leave a register that has fewer of them than this fraction. 3/8 takes a
+/// twentieth more time, 1/2 a tenth.
 inline constexpr double register_part = 0.25;
 /// Steps between two checks. 1 or 3: the same to 3 %.
 inline constexpr int steps = 2;
-/// Steps until the scalar solver takes over. 15: it takes 118 chains; 60: 65.
+/// Steps until the scalar solver takes over. With 15 it takes 118 chains, with 60 it takes 65.
 inline constexpr int max_steps = 30;
-/// Damping of least squares, in reach squared. First 2e-3 or 2e-1: 4.9 or 5.2 steps. Falls by 0.1, grows by
-/// 2.5: 4.66 or 4.62 steps.
+/// Damping of least squares, in reach squared. With a first damping of 2e-3 or 2e-1: 4.9 or 5.2 steps. With a
+/// fall of 0.1 or a growth of 2.5: 4.66 or 4.62 steps.
 inline constexpr float first_damping = 2e-2f, min_damping = 1e-8f, max_damping = 1.0f;
 inline constexpr float damping_falls = 0.3f, damping_grows = 5.0f;
-/// How far a step may move the tip, as a fraction of the reach: the first and maximum distance, and its
+/// Maximum move of the tip in a step, as a fraction of the reach: the first and the maximum distance, and its
 /// factors after a good or bad step. Always 1: 86 chains are left and 4.69 steps; from 0.3 on: 113 and 5.2.
 inline constexpr float first_move = 1.0f, max_move = 1.0f, move_grows = 2.0f, move_falls = 0.4f;
 /// Active-set passes per step. 1: 150 chains are left; 3: 70.

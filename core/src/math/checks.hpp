@@ -41,7 +41,7 @@ std::optional<std::size_t> index_of_name(const std::vector<Named>& list, std::st
     return std::nullopt;
 }
 
-/// How a message names the argument: `target`, `joints[3]`, `segments[3].position`.
+/// An argument as messages name it: `target`, `joints[3]`, `segments[3].position`.
 struct Argument {
     Argument(const char* what) noexcept : name(what) {}
     Argument(std::string_view what, std::size_t at = no_index, std::string_view part = {}) noexcept
@@ -85,14 +85,14 @@ Result refused_count(std::string_view operation, const Argument& argument, std::
                      std::size_t wanted) noexcept;
 
 /// `remove: body was removed (slot 7)`, `... is an empty handle`, or `... is not a handle of this world (slot
-/// 7)`. `uses`: how often the slot was taken and freed; 0 if there is no such slot.
+/// 7)`. `uses`: number of times that the slot was taken and freed; 0 if there is no such slot.
 Result refused_handle(std::string_view operation, const Argument& argument, std::uint32_t slot,
                       std::uint32_t generation, std::uint32_t uses, std::string_view whole) noexcept;
 
 /// `solve: the solver has been moved from`
 Result moved_from(std::string_view operation, std::string_view what) noexcept;
 
-/// A member of `*held`, or an empty one if `held` was moved away.
+/// A member of `*held`, or an empty one if `held` has been moved away.
 template <class Held, class Owner, class Member>
 const Member& held_or_empty(const Held& held, Member Owner::*member) noexcept {
     if (held) return (*held).*member;

@@ -7,6 +7,6 @@
 // Everything between HWY_BEFORE_NAMESPACE() and HWY_AFTER_NAMESPACE() is then compiled for each unit; at the
 // end, under HWY_ONCE, see math/dispatch.hpp. Not installed.
 #include "math/dispatch.hpp"
-// foreach_target.h has to come first: it includes the file again.
+// foreach_target.h must come first: it includes the file again.
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -8,7 +8,7 @@
 namespace tendril::math {
 namespace {
 
-/// A value and what rounding left out of it.
+/// A value and its rounding error.
 struct Sum {
     double value, rest = 0.0;
 };
@@ -60,7 +60,7 @@ inline double small_cosine(Sum angle) {
     return rough + (((1.0 - rough) - half) + (zz * (low + z * zz * high) - r * angle.rest));
 }
 
-/// `quarters` right angles and an angle of at most pi / 4.
+/// An angle of at most pi / 4, plus `quarters` right angles.
 struct Reduced {
     Sum angle;
     std::int64_t quarters = 0;
@@ -181,7 +181,7 @@ double angle_of(double y, double x) {
                           zz * zz * ((1.0 / 11 - z * (1.0 / 13)) + zz * (1.0 / 15));
     Sum angle{t, -t * z * series};
     if (exact && k < 2.0 && above * above > 0x1p-1000) {
-        // Here t is most of the result, so it adds what rounding cut from the division and its operands.
+        // Here t is most of the result, so add the rounding errors of the division and its operands.
         const Sum product = multiply(t, below);
         const double rounded = (along - below) + c * across;
         angle.rest += (((above - product.value) - product.rest) - t * rounded) / below;

@@ -21,12 +21,12 @@ namespace tendril::detail {
 class ForkJoin {
   public:
     ForkJoin() = default;
-    /// Moving yields a new object: no thread may be working in the source.
+    /// Moving yields a new object. No thread may be working in the source.
     ForkJoin(ForkJoin&&) noexcept : ForkJoin() {}
 
     void begin() noexcept { shared_ = true; }
     void end() noexcept { shared_ = false; }
-    /// Whether other threads may help. If not, run the loop without parts.
+    /// True if other threads may help. Otherwise run the loop without parts.
     bool shared() const noexcept { return shared_; }
 
     /// Calls `part(i)` for each i below `count`, at most max_parts, in any order, on this thread and on
@@ -37,7 +37,7 @@ class ForkJoin {
         run([](void* context, std::uint32_t index) noexcept { (*static_cast<const Part*>(context))(index); },
             const_cast<Part*>(&part), count);
     }
-    /// Works on the running loop, if any, until no parts are left. Returns whether it did any.
+    /// Works on the running loop, if any, until no parts are left. Returns whether it did any work.
     bool help() noexcept { return work(false); }
 
     static constexpr std::uint32_t max_parts = 0xffff;

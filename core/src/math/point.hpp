@@ -1,12 +1,12 @@
 // Points of floats, and the one step that chains and solvers share. Not installed.
 //
-// Why no GLM functions: they are inline, so a program compiled with other floating-point options could
-// replace the library's copies with its own at link time. Plain arithmetic in this order gives the same bits
-// everywhere.
+// GLM's functions are not used because they are inline: a program compiled with other floating-point options
+// could replace the library's copies with its own at link time. Plain arithmetic in this order gives the same
+// bits everywhere.
 //
-// Why no overflow checks: input is at most 1e9, and a float that grows in steps of at most 1e9 stops growing
-// at 2^54, where the spacing of floats is 2^31 and half of it exceeds the step. So no coordinate exceeds
-// 2^54, no difference 2^55, and the sum of three squares stays under 1e34; a float holds 3e38.
+// Overflow checks are not needed: input is at most 1e9, and a float that grows in steps of at most 1e9 stops
+// growing at 2^54, where the spacing of floats is 2^31 and half of it exceeds the step. So no coordinate
+// exceeds 2^54, no difference 2^55, and the sum of three squares stays under 1e34; a float holds 3e38.
 #pragma once
 
 #include <cfloat>
@@ -15,7 +15,7 @@
 
 namespace tendril::math {
 
-/// Points closer than the root of this (0.35 mm) coincide: there is no direction between them.
+/// Points closer than the square root of this (0.35 mm) coincide: there is no direction between them.
 inline constexpr float coincidence = FLT_EPSILON;
 
 static inline float squared_distance(const glm::vec3& a, const glm::vec3& b) noexcept {

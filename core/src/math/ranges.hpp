@@ -18,8 +18,8 @@ bool is_in_range(const void* object) noexcept {
     else
         return fits(rows[at], object);
 }
-/// Whether each value is in its row's range; lists and structs are skipped. The loop is unrolled and the
-/// accessors inlined, so it costs as little as comparisons by hand.
+/// True if each value is in its row's range; lists and structs are skipped. The loop is unrolled and the
+/// accessors inlined, so it costs as little as handwritten comparisons.
 template <const auto& rows>
 bool are_in_range(const void* object) noexcept {
     return [object]<std::size_t... at>(std::index_sequence<at...>) {
@@ -28,7 +28,7 @@ bool are_in_range(const void* object) noexcept {
     (std::make_index_sequence<std::size(rows)>());
 }
 
-/// Names the list's element in front of check_fields()' message: `solve: effectors[2].weight must be ...`
+/// Prepends the list's element to check_fields()' message: `solve: effectors[2].weight must be ...`
 template <class Row>
 Result refused_element(const char* operation, const char* list, std::size_t index, const Row& row) noexcept {
     char place[64];

@@ -38,7 +38,7 @@ Result::Result(ErrorCode code, std::string_view message) noexcept : code_(code) 
     message_[size] = '\0';
 }
 
-/// An operation is a function's name, in front of ": ".
+/// The operation is a function's name before ": ".
 const char* Result::reason() const noexcept {
     const std::size_t end = std::strspn(message_, "abcdefghijklmnopqrstuvwxyz_");
     return end > 0 && message_[end] == ':' && message_[end + 1] == ' ' ? message_ + end + 2 : message_;
@@ -48,7 +48,7 @@ Result::Result(const Result& other) noexcept {
     *this = other;
 }
 
-/// Every report holds a success, so that copies at the price of two bytes.
+/// Copying a success, which every report holds, costs two bytes.
 Result& Result::operator=(const Result& other) noexcept {
     code_ = other.code_;
     if (ok())

@@ -1,5 +1,5 @@
 // Symmetric 3x3 matrices. J J' of any number of ball joints has three rows, so the Jacobian solvers need
-// nothing bigger: no matrix library is linked, and the bits are the same under every compiler. Doubles,
+// nothing bigger: no matrix library is linked, and the bits are the same under every compiler. In double,
 // because J J' squares the condition number of J. Not installed.
 #pragma once
 

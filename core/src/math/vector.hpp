@@ -56,7 +56,7 @@ static inline std::optional<Vec<T>> direction_of(const Vec<T>& a, std::type_iden
 /// A unit vector perpendicular to `a`, which must not be zero; deterministic.
 template <class T>
 static inline Vec<T> perpendicular(const Vec<T>& a) noexcept {
-    // Starts from the axis along which `a` is smallest, so that the result is never small.
+    // Start from the axis along which `a` is smallest, so that the result is never small.
     const T x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
     const Vec<T> away = y <= x && y <= z ? Vec<T>(0, 1, 0) : z <= x ? Vec<T>(0, 0, 1) : Vec<T>(1, 0, 0);
     const Vec<T> side = minus(away, times(a, dot(away, a) / dot(a, a)));

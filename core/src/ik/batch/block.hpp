@@ -26,14 +26,14 @@ enum class Row : std::size_t {
     TargetZ,
     Tolerance,
     Residual,
-    Best,     ///< the smallest residual of the whole solve
+    Best,     ///< minimum residual of the whole solve
     Saved,    ///< 1 if the rows of the best pose are valid; 0 if the chain's joints are the best
     Nearest,  ///< minimum residual since the last perturbation
     Last,     ///< the previous residual
     Idle,     ///< successive iterations without gain, and slow ones; see convergence.hpp
     Slow,
-    Perturbations,  ///< how many so far
-    Iterations,     ///< whole numbers up to 1 000 000, which a float holds
+    Perturbations,  ///< number of perturbations so far
+    Iterations,     ///< integers up to 1 000 000, which a float holds
     Activity,
     Class,
     Side  ///< the ik::Side of a chain in a plane

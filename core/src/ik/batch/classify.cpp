@@ -26,9 +26,9 @@ HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
     return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
 }
 
-/// Whether every bone of a register of chains is certainly at its length and, judging by root and reach, no
-/// joint too far out. One pass without a square root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a of
-/// l. False if a coordinate is not finite.
+/// True if every bone of a register of chains is certainly at its length and, judging by root and reach, no
+/// joint is too far out. One pass without a square root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a
+/// of l. False if a coordinate is not finite.
 HWY_INLINE bool certainly_fits(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
@@ -44,7 +44,8 @@ HWY_INLINE bool certainly_fits(const Block& block, std::size_t i) {
     return hn::AllTrue(Floats(), fits);
 }
 
-/// How far a bone is from its length, and how much enforce_lengths (prepare.cpp) tolerates.
+/// Computes a bone's deviation from its length, and the deviation that enforce_lengths (prepare.cpp)
+/// tolerates.
 HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lanes& off, Lanes& allowed) {
     const float *const from = block.joint(bone) + i, *const to = block.joint(bone + 1) + i;
     const Lanes size = load(block.length(bone) + i);
@@ -159,10 +160,10 @@ HWY_INLINE void fold(const Block& block, std::size_t i, Mask lanes) {
     }
 }
 
-/// Whether all joints of a chain may lie on one line with its target. If they do, to 1e-5 of the reach
-/// (perturbation.cpp), no arm's cross product with the target's arm exceeds twice that plus rounding; nor if
-/// they are within `near_line` of the line to the target. One joint off the line is enough, so checking the
-/// last two or three usually suffices.
+/// Lanes whose chains may have all joints on one line with the target. If they do, to 1e-5 of the reach
+/// (perturbation.cpp), no arm's cross product with the target's arm exceeds twice that plus rounding. The
+/// same holds if they are within `near_line` of the line to the target. One joint off the line is enough, so
+/// checking the last two or three usually suffices.
 HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes, float near_line) {
     const Points root = load_points(block.joint(0) + i);
     const Points target = minus(load_points(block.target() + i), root);
@@ -202,7 +203,7 @@ void classify(const Block& block, std::size_t lanes) {
     }
 }
 
-/// Whether the tip may be at the root, by the rule of pole.cpp.
+/// Lanes whose tip may be at the root, by the rule of pole.cpp.
 HWY_INLINE Mask may_be_closed(const Block& block, std::size_t i) {
     const Lanes near =
         hn::Mul(load(block.reach() + i), all(1.1f * static_cast<float>(tune::pole::closed_tip)));

@@ -1,5 +1,5 @@
-// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and how each
-// chain continues, by the rules of solve/loop.cpp and solve/convergence.hpp.
+// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and the
+// decision on how each chain continues, by the rules of solve/loop.cpp and solve/convergence.hpp.
 #include <array>
 
 #include "ik/batch/vector.hpp"
@@ -20,7 +20,7 @@ HWY_INLINE Lanes all(int value) {
     return all(static_cast<float>(value));
 }
 
-/// The registers of a block with active chains, and whether all lanes of these registers are active.
+/// The registers of a block with active chains; `all` is true if all their lanes are active.
 struct Registers {
     std::array<std::uint16_t, block_lanes> first;
     std::size_t count = 0;
@@ -78,11 +78,11 @@ HWY_INLINE Mask is_accelerated(const Block& block, std::size_t i) {
 /// Some lanes of a block, side by side in another block.
 struct Gathered {
     Block block;
-    LaneList home;  ///< the lane that each came from
+    LaneList home;  ///< original lane of each
 
     explicit Gathered(const Block& in) : block(in) {}
 
-    /// Adds what the accelerated step reads. `home_of` maps each lane to its original lane.
+    /// Adds the input of the accelerated step. `home_of` maps each lane to its original lane.
     template <class JointAccess>
     void add(const Block& from, const LaneList& lanes, JointAccess home_of) {
         const std::size_t bones = from.bones(), at = home.count;
@@ -172,8 +172,8 @@ HWY_INLINE StepLanes find_step_lanes(const Block& block, const Registers& regist
     return step_lanes;
 }
 
-/// Whether gathering the chains side by side costs less than using their registers as they are. Moving a
-/// chain there and back takes about as long as the step of a register for one bone in eight.
+/// True if gathering the chains side by side costs less than using their registers as they are. Moving a
+/// chain there and back takes about as long as a register's step for one bone in eight.
 HWY_INLINE bool should_gather(const StepLanes& step_lanes) {
     const std::size_t width = hn::Lanes(Floats());
     const std::size_t saved = step_lanes.registers - (step_lanes.count + width - 1) / width;
@@ -221,7 +221,7 @@ HWY_INLINE void save_best(const Block& block, std::size_t i) {
     store(hn::IfThenElse(lanes, all(1.0f), load(saved)), saved);
 }
 
-/// How the chains of a register continue after an iteration.
+/// Decides how the chains of a register continue after an iteration.
 struct Decision {
     Mask continues, perturb;
 };

@@ -54,10 +54,10 @@ HWY_INLINE Lanes cosine_of(Lanes sine) {
     return hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(sine, sine)), zero()));
 }
 
-/// Which bounds a joint is at.
+/// The bounds that a joint is at.
 struct BoundState {
     Points outward;      ///< axis of a swing on the rim; zero inside
-    Lanes upper, lower;  ///< 1 if the hinge or twist is at that end of its range
+    Lanes upper, lower;  ///< 1 if the hinge or twist is at this end of its range
     BoundState() : outward{zero(), zero(), zero()}, upper(zero()), lower(zero()) {}
 };
 

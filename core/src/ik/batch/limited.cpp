@@ -23,8 +23,8 @@ namespace HWY_NAMESPACE {
 constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_move = Row::Nearest,
               row_of_slow = Row::Slow;
 
-/// Initialises the state of a register's chains. Chains that have arrived and violate no limit are done
-/// already.
+/// Initialises the state of a register's chains. Chains that have arrived without violating a limit are
+/// already done.
 HWY_INLINE void begin(const Limb& limb, float* rotations) {
     const Mask requested = equals(limb.row(Row::Class), Class::Reachable);
     const Mask violated = load_clamped_pose(limb, rotations);

@@ -17,8 +17,8 @@ HalfRange half_range(float min, float max) noexcept {
     return {math::sine(0.5f * std::clamp(min, -pi, pi)), math::sine(0.5f * std::clamp(max, -pi, pi)), whole};
 }
 
-/// 1 / angle^2, as in solvable_joint (limits/joint.cpp): straight back, neither the twist nor the side of the
-/// swing is defined.
+/// 1 / angle^2, as in solvable_joint (limits/joint.cpp): pointing straight back, neither the twist nor the
+/// side of the swing is defined.
 float inverse_square(float half_angle) noexcept {
     const float angle = std::min(half_angle, pi - 0.02f);
     return 1.0f / (angle * angle);

@@ -1,6 +1,6 @@
 // The limits of a batch, prepared for registers: clamping needs no angles. Not installed.
 //
-// Half-angles are from -pi/2 to pi/2, where the sine is monotonic: so a hinge or a twist is clamped by
+// Half-angles are from -pi/2 to pi/2, where the sine is monotonic, so a hinge or a twist is clamped by
 // comparing sines of half-angles.
 #pragma once
 
@@ -21,7 +21,7 @@ struct HalfRange {
 struct BatchLimit {
     enum class Kind { Free, Hinge, Cone } kind = Kind::Free;
     glm::vec3 bone{1, 0, 0}, axis{0, 0, 1}, side{0, 1, 0};  ///< as in LimitedJoint
-    HalfRange range;                                        ///< of the hinge's angle or the twist
+    HalfRange range;                                        ///< range of the hinge's angle or of the twist
     float up = 0, down = 0, left = 0, right = 0;            ///< 1 / half-angle^2
 };
 

@@ -1,6 +1,6 @@
-// The part of work.cpp for chains in a plane. Like plane.cpp, solves them in the plane's coordinates, where
-// the iterations for chains in space keep them flat. Coordinates and sides, found once per solve, are scalar
-// and in double; the iterations are not. With limits of angles the scalar solver takes every chain.
+// The part of work.cpp for chains in a plane. As plane.cpp does, it solves them in the plane's coordinates,
+// where the iterations for chains in space keep them flat. Coordinates and sides, found once per solve, are
+// scalar and in double; the iterations are not. With angle limits the scalar solver takes every chain.
 
 #include "ik/batch/work.hpp"
 #include "ik/math.hpp"
@@ -12,7 +12,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Metres: from a root nearer to the origin than this, relative coordinates stay below max_magnitude.
+/// Metres: with a root nearer to the origin than this, relative coordinates stay below max_magnitude.
 constexpr float precise_range = 0.25f * max_magnitude;
 
 }  // namespace

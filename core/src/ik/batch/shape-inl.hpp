@@ -92,8 +92,8 @@ HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& f
 struct BestShape {
     Points span;
     Lanes size, error;
-    Mask found;   ///< whether the wanted length was bracketed
-    Mask second;  ///< whether the second try is better
+    Mask found;   ///< the wanted length was bracketed
+    Mask second;  ///< the second try is better
 };
 
 /// Finds the t^2 at which the span has the wanted length, in two tries: regula falsi.
@@ -125,7 +125,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     high = hn::IfThenElse(crosses, next, high), at_high = hn::IfThenElse(crosses, off, at_high);
     const Lanes between =
         hn::Add(low, hn::Mul(hn::Sub(high, low), hn::Div(at_low, hn::Sub(at_low, at_high))));
-    // Still too short at the estimated bend.
+    // Still too short with the estimated bend.
     const Lanes strong = hn::Max(next, all(tune::chain::strong_bend));
     next = bounded(hn::IfThenElse(bracketed, between, strong));
     best.found = hn::Or(best.found, hn::And(again, crosses));
@@ -143,7 +143,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     return best;
 }
 
-/// All bones, or all but the longest, bend or straighten; `span` is their span.
+/// All bones, or all except the longest, bend or straighten; `span` is their span.
 HWY_INLINE Family blend_of(const Points& span, const Points& aim, Lanes reach) {
     Family family;
     family.aim = aim;
@@ -211,7 +211,7 @@ class Turn {
     }
 
   private:
-    /// Rare, so computed lane by lane.
+    /// Computed lane by lane, since it is rare.
     static Points perpendicular(const Points& to) {
         HWY_ALIGN float x[16], y[16], z[16];
         store(to.x, x), store(to.y, y), store(to.z, z);

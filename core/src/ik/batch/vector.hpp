@@ -28,7 +28,7 @@ inline std::size_t shape_floats(std::size_t bones) noexcept {
 struct IterateJob {
     int iterations;      ///< maximum in this call
     int max_iterations;  ///< maximum in total, counted in Row::Iterations
-    bool every;          ///< whether converged chains continue
+    bool every;          ///< converged chains continue
     StepScratch step;
 };
 
@@ -62,7 +62,7 @@ inline std::size_t limited_floats(std::size_t bones) noexcept {
     return (2 * full_pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
 }
 
-/// How many chains still iterate, and whether any of them waits for a perturbation first.
+/// The number of chains that still iterate; `perturb` if any of them waits for a perturbation first.
 struct Remaining {
     std::size_t active = 0;
     bool perturb = false;
@@ -80,8 +80,8 @@ using Begin = Remaining(const Block& block, std::size_t lanes, bool every, bool 
 /// unchanged.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
 /// Solves the reachable chains from their joints and four rows of rotations per bone, in the order of
-/// glm::quat. Chains that do not converge are left unchanged for the scalar solver, but a register's last
-/// ones move to the tile, from lane `used` on. Returns those, at most max_leftover per block.
+/// glm::quat. Chains that do not converge are left unchanged for the scalar solver, but the last ones of a
+/// register move to the tile, from lane `used` on. Returns those, at most max_leftover per block.
 using SolveLimited = LaneList(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
                               const LimitedJob& job);
 /// A few steps of the tile's first `used` lanes, without moving chains to the tile.
@@ -93,7 +93,7 @@ using SetTargets = void(const Block& block, std::size_t lanes, const glm::vec3* 
 /// Copies between lists of `count` floats, chain after chain, and as many rows of a block.
 using CopyIn = void(const float* lists, std::size_t lanes, std::size_t count, float* rows);
 using CopyOut = void(const float* rows, std::size_t lanes, std::size_t count, float* lists);
-/// Whether all coordinates are finite and at most max_magnitude.
+/// True if all coordinates are finite and at most max_magnitude.
 using AreValid = bool(const float* coordinates, std::size_t count);
 
 struct VectorUnit {

@@ -18,7 +18,7 @@
 
 namespace tendril::ik::detail {
 
-/// Report of a refused chain. Its residual is infinite: no comparison takes that for success.
+/// Report of a refused chain. Its infinite residual never compares as success.
 inline constexpr ManyReport refused_chain{.status = Status::InvalidInput,
                                           .residual = std::numeric_limits<float>::infinity()};
 

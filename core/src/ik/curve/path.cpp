@@ -92,12 +92,12 @@ int sign_changes(const Sextic& c) noexcept {
     return changes;
 }
 
-/// Where the cubic first leaves the sphere about the origin, in which it begins; negative if it does not. A
-/// cubic that touches the sphere from inside, within rounding, stays in it.
+/// The parameter at which the cubic first leaves the sphere about the origin, in which it begins; negative if
+/// it does not. A cubic that touches the sphere from inside, within rounding, stays in it.
 double first_crossing(const Cubic& cubic, double radius) noexcept {
     const double square = radius * radius;
     const auto inside = [&](std::size_t i) { return dot(cubic[i], cubic[i]) < square; };
-    if (inside(3) && inside(2) && inside(1) && inside(0)) return -1.0;  // and so is all between them
+    if (inside(3) && inside(2) && inside(1) && inside(0)) return -1.0;  // and so is everything between them
     constexpr int deepest = 40;
     struct Interval {
         Sextic c;
@@ -124,7 +124,7 @@ double first_crossing(const Cubic& cubic, double radius) noexcept {
     return -1.0;
 }
 
-/// Whether the distance rises all the way, judged by the signs of its slope's Bernstein coefficients.
+/// True if the distance always increases, judged by the signs of its slope's Bernstein coefficients.
 bool is_increasing(Sextic c, double slack, int splits = 0) noexcept {
     constexpr int most = 24;
     bool all = true;
@@ -191,7 +191,7 @@ PathPoint Path::sample(const PathParam& param, const glm::dvec3& before) noexcep
     const Piece& p = piece(param.piece);
     const glm::dvec3 at = p.powers.at(param.t), slope = p.powers.slope(param.t);
     const double squared = dot(slope, slope);
-    // Where the slope vanishes, as at a cusp, a short chord into the longer part of the piece replaces it.
+    // If the slope vanishes, as at a cusp, use a short chord into the longer part of the piece.
     if (squared > 1e-18 * p.speed * p.speed) return {at, times(slope, 1.0 / std::sqrt(squared))};
     const glm::dvec3 chord =
         param.t < 0.5 ? minus(p.powers.at(param.t + 1e-3), at) : minus(at, p.powers.at(param.t - 1e-3));

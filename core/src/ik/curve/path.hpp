@@ -1,4 +1,4 @@
-// The curve through control points, and where a chain's joints lie on it. Not installed.
+// The curve through control points, and the positions of a chain's joints on it. Not installed.
 #pragma once
 
 #include <array>
@@ -52,12 +52,12 @@ class Path {
     const glm::dvec3& end() const noexcept { return end_; }
 
     glm::dvec3 point(const PathParam& param) noexcept;
-    /// `tangent`: unit; `before` where the path has no direction.
+    /// `tangent`: unit; `before` if the path has no direction there.
     PathPoint sample(const PathParam& param, const glm::dvec3& before) noexcept;
-    /// The first position after `from` that is `length` metres from `joint`, the point at `from`.
+    /// The first position after `from` that is `length` metres from `joint`, which is the point at `from`.
     PathParam next(const PathParam& from, const glm::dvec3& joint, double length) noexcept;
-    /// Whether the distance from `centre` grows all the way between two positions, one of them `length`
-    /// metres away. Ignores dips of the squared distance by less than 1e-9 of length^2.
+    /// True if the distance from `centre` always increases between two positions, one of them `length` metres
+    /// away. Ignores dips of the squared distance by less than 1e-9 of length^2.
     bool distance_grows(const PathParam& from, const PathParam& to, const glm::dvec3& centre,
                         double length) noexcept;
 

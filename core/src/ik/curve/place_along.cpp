@@ -65,7 +65,7 @@ Result check_input(std::span<const glm::vec3> points, const CurveChain& chain,
     return {};
 }
 
-/// How far beyond the end of the path the tip lies with all bones scaled by `factor`, metres; negative if it
+/// Distance of the tip beyond the end of the path with all bones scaled by `factor`, metres; negative if it
 /// falls short.
 double overshoot(Path& path, std::span<const float> lengths, double factor) noexcept {
     PathParam param;
@@ -111,7 +111,7 @@ double fitted_factor(Path& path, std::span<const float> lengths, double most) no
 struct Frame {
     glm::dvec3 at, tangent, normal;
 
-    /// Double reflection. Skips a point too near to give a direction.
+    /// Double reflection. Skips a point that is too near to give a direction.
     void move_to(const PathPoint& next) noexcept {
         const glm::dvec3 step = minus(next.at, at);
         const double squared = dot(step, step);
@@ -152,7 +152,7 @@ glm::dvec3 up_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
     return side ? *side : perpendicular(along);
 }
 
-/// `side`, perpendicular to the unit vector `from`, after the minimal rotation from there to `to`.
+/// Applies to `side`, perpendicular to the unit vector `from`, the minimal rotation from there to `to`.
 glm::dvec3 turned_along(const glm::dvec3& side, const glm::dvec3& from, const glm::dvec3& to) noexcept {
     const double w = 1.0 + dot(from, to);
     if (w < nearly_opposite<double>) return rotated(minimal_rotation(from, to), side);
@@ -161,7 +161,7 @@ glm::dvec3 turned_along(const glm::dvec3& side, const glm::dvec3& from, const gl
 /// The rotation that takes the unit vector `from` to `axis`, and `from_side`, perpendicular to it, to `side`.
 glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm::dvec3& from,
                        const glm::dvec3& from_side) noexcept {
-    // The minimal rotation, then a twist about the axis: quaternions that are only normalised at the end.
+    // The minimal rotation, then a twist about the axis: quaternions that are normalised only at the end.
     const glm::dvec3 swung = turned_along(from_side, from, axis);
     const double twist = 1.0 + dot(swung, side), swing = 1.0 + dot(from, axis);
     const double sine = dot(cross(swung, side), axis);

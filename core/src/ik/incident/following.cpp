@@ -1,4 +1,4 @@
-// How well the tip follows the target: jumps, repeated frames, misses, lag and jitter.
+// Faults in following the target: jumps, repeated frames, misses, lag and jitter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,7 +121,7 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     note(found);
 }
 
-// Finds frames that equal the one before. Confirms them once tip and target move on as before.
+// Finds frames equal to the previous one. Confirms them once tip and target move on as before.
 void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (recent_.size() < 2) return;
     const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
@@ -157,7 +157,7 @@ void IncidentFinder::add_repeat(const Repeat& hold) {
     cadence_.push_back(hold);
 }
 
-// Reports repeats singly if they are too few for a cadence; the last may start the next cadence.
+// Reports repeats one by one if they are too few for a cadence; the last may start the next cadence.
 void IncidentFinder::close_cadence() {
     const std::size_t count = cadence_.size();
     const auto faults = std::ranges::count(cadence_, true, &Repeat::fault),
@@ -196,7 +196,7 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
            math::distance(*a.target, *b.target) > moving;
 }
 
-// One repeated frame is a fault. Several may be a rest, before which the chain slows down, or after which it
+// One repeated frame is a fault. Several may be a rest, before which the chain slows down or after which it
 // moves in another direction or at another speed; but not if its target moved on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
@@ -226,7 +226,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     if (errors[0] <= allowed) root_jumped_ = false;
     find_late(errors, allowed);
     const float error = std::ranges::min(errors);
-    // A bone of another length moves the tip too, and is reported already.
+    // A bone of another length also moves the tip, and has been reported already.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
     const bool approaching = missed_frames_ > 0 && error < approach_ratio * missed_before_;
@@ -251,7 +251,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     update_episode(missed_, true, now);
 }
 
-// Late for a while: the tip misses its target, and meets an earlier one.
+// The tip is late for a while: it misses its target and meets an earlier one.
 void IncidentFinder::find_late(const std::array<float, max_lag + 1>& errors, float allowed) {
     const auto best = [&] { return std::ranges::min_element(late_.squares) - late_.squares.begin(); };
     if (late_.frames > 0 && !(errors[static_cast<std::size_t>(best())] <= allowed)) close_late();
@@ -292,7 +292,7 @@ void IncidentFinder::follow(const ReachPose& pose) {
     const float moving = std::max(moving_share * reach_, options_.resolution);
     const auto moved = [&](glm::vec3 a, glm::vec3 b) { return math::distance(a, b) > moving; };
     if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
-    // If only the tip jumped, the paths start anew.
+    // If only the tip jumped, start the paths again.
     const glm::vec3 tip_now = pose.joints[end_] - pose.root();
     if (!followers_.empty()) {
         float longest = math::distance(target, targets_.back());
@@ -422,7 +422,7 @@ std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left(
     return squares;
 }
 
-// The lag, in frames, at which the target's path fits the tip's best up to an offset and a scale: a tip that
+// The lag, in frames, at which the target's path best fits the tip's, up to an offset and a scale: a tip that
 // misses its target may still lag. A changing miss spoils the fit of positions more than of steps; noise
 // spoils the fit of short steps.
 std::size_t IncidentFinder::find_lag() const {
@@ -435,7 +435,7 @@ std::size_t IncidentFinder::find_lag() const {
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
         const double least = std::ranges::min(left[i]), same = frames * 0.01 * least_rms * least_rms;
-        // The first of equal fits: a circling target comes back later.
+        // The first of equal fits, because a circling target comes back later.
         const auto lag = static_cast<std::size_t>(
             std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -
             left[i].begin());
@@ -454,7 +454,7 @@ std::size_t IncidentFinder::find_lag() const {
 void IncidentFinder::finish_following() {
     update_episode(missed_, false, {});
     judge_jitter();
-    // Frames repeated to the end, while the target goes on within reach.
+    // Frames repeated to the end while the target moves on within reach.
     const bool limited = std::ranges::any_of(limit_, &Episode::open);
     const double usual = cadence_.size() >= min_cadence ? cadence_.back().incident.amount + 1.0 : 1.0;
     if (static_cast<double>(repeat_.frames) > usual && repeat_.moved && !limited && !recent_.empty()) {
@@ -474,7 +474,7 @@ void IncidentFinder::finish_following() {
     }
     const std::size_t best = find_lag();
     close_late();
-    // A tip that never meets its target is off rather than late.
+    // A tip that never meets its target is off, not late.
     std::erase_if(lates_, [&](const ChainIncident& each) {
         return prompt_[static_cast<std::size_t>(each.amount)] < min_lag_frames;
     });
@@ -486,7 +486,7 @@ void IncidentFinder::finish_following() {
     const bool explained =
         cadence_.size() >= min_cadence && cadence_[0].incident.frame + best < cadence_[1].incident.frame;
     if (best == 0 || explained) return;
-    // Where the target was before the first frame is unknown.
+    // The target's position before the first frame is unknown.
     std::erase_if(found_, [&](const ChainIncident& each) {
         return each.kind == IncidentKind::Missed && each.frame == 0 &&
                each.last_frame <= first_move_.value_or(0) + best;

@@ -17,7 +17,7 @@ bool finite(glm::vec3 p) noexcept {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// `v`, turned by the smallest rotation that takes direction `from` to direction `to`. Both have length 1.
+/// `v` turned by the smallest rotation that takes direction `from` to direction `to`, both of length 1.
 glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
     const glm::vec3 axis = math::cross(from, to);
     const float cosine = math::dot(from, to);
@@ -199,13 +199,14 @@ bool IncidentFinder::find_nan(const TraceFrame& frame) {
 }
 
 void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
-    bool opened = false;  // the bone before began to differ in this frame
+    bool opened = false;  // the previous bone began to differ in this frame
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
         const float length = math::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
         const float allowed = std::max(length_share * lengths_[i], rounded_lengths * options_.resolution);
         const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
-        // Both bones at a joint change at once. If their outer ends stay as far apart, only that joint moved.
+        // Both bones at a joint change at once. If their outer ends keep their distance, only that joint
+        // moved.
         const bool opens = active && !length_[i].open;
         if (opens && opened && !recent_.empty() && found_.size() < max_incidents) {
             const std::vector<glm::vec3>& was = recent_.back().joints;
@@ -269,7 +270,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
         return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose, aimed);
     };
     // A bone flips if it turns far and moves much further than its target. The target's angle is ignored,
-    // since close to the root it is arbitrary. A damped solver takes several frames to flip.
+    // since it is arbitrary close to the root. A damped solver takes several frames to flip.
     const auto find_swing = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
         const BoneTurn turn = furthest_turn(was, pose);
         const bool far = in_degrees(turn.radians) > degrees;
@@ -378,7 +379,7 @@ void IncidentFinder::finish() {
     merge_scaled(found_, lengths_);
     // A joint out of place changes both its bones over the same frames: one incident, the larger.
     std::size_t count = 0;
-    bool merged = true;  // whether the last one was
+    bool merged = true;  // the last one was merged
     for (const ChainIncident& each : found_) {
         ChainIncident* const before = count > 0 ? &found_[count - 1] : nullptr;
         merged = !merged && before->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&

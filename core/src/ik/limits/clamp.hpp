@@ -44,7 +44,7 @@ static inline bool clamp_hinge(const LimitedJoint& joint, glm::quat& rotation, f
     return true;
 }
 
-/// Whether a rotation is certainly clear of every bound. May be false, rarely, for one that is.
+/// True if a rotation is certainly clear of every bound. Rarely, it is false for one that is.
 static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     if (joint.free()) return true;
     const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
@@ -59,7 +59,7 @@ static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotatio
 /// Clamps a joint other than a hinge, if is_inside is false.
 bool clamp_cone(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept;
 
-/// The part of a turn from one rotation to another that a joint's mobility lets through.
+/// The part of a turn from one rotation to another that a joint's mobility allows.
 static inline glm::quat mobile_part(const LimitedJoint& joint, const glm::quat& from,
                                     const glm::quat& to) noexcept {
     return joint.mobility < 1.0f ? math::slerp(from, to, joint.mobility) : to;

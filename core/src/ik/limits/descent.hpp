@@ -32,7 +32,7 @@ class LimitedDescent {
     bool stalled() const noexcept { return convergence_.stalled(); }
     float error() const noexcept { return error_; }
     float damping() const noexcept { return damping_; }
-    /// Whether the last step was rejected because it exceeded the allowance.
+    /// True if the last step was rejected because it exceeded the allowance.
     bool exceeds_allowance() const noexcept { return exceeds_allowance_; }
 
   private:
@@ -43,10 +43,10 @@ class LimitedDescent {
     void step(Problem& problem, Watch watch) noexcept;
 
     float damping_ = tune::limits::first_damping;  ///< in reach squared
-    float error_;                                  ///< the current pose's
+    float error_;                                  ///< error of the current pose
     float allowance_;
     Convergence convergence_;  ///< convergence of the least-squares steps
-    bool reaches_ = true;      ///< whether FABRIK's passes still at least halve the error
+    bool reaches_ = true;      ///< FABRIK's passes still at least halve the error
     bool exceeds_allowance_ = false;
 };
 

@@ -62,7 +62,7 @@ class Explanation {
         std::size_t joint = no_joint;
         float stopped = 0.0f;
     };
-    std::array<Candidate, max_candidates> candidates_{};  ///< sorted, those that stop most first
+    std::array<Candidate, max_candidates> candidates_{};  ///< sorted by how much they stop, descending
 };
 
 /// Solves with the default method and returns the remaining error.
@@ -125,7 +125,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
 
-/// Lists the joints whose limits stop most; among equals, the one nearer to the root comes first.
+/// Lists the joints whose limits stop most; among equals, the one nearer to the root first.
 void Explanation::find_candidates() noexcept {
     for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
         const Candidate next{joint, stopped(joint)};
@@ -152,14 +152,14 @@ Outcome Explanation::best_freed() noexcept {
     return best;
 }
 
-/// The angles for the smallest range with which the tip comes as near as with the full range.
+/// The angles of the smallest range with which the tip comes as near as with the full range.
 JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
     float low = 0.0f, high = 1.0f;
     JointAngles needed = freed.angles;
     for (int i = 0; i < halvings; ++i) {
         const float part = 0.5f * (low + high);
         const Outcome some = with(freed.joint, widened(options_.limits[freed.joint], freed.angles, part));
-        // From another start the tip may arrive within the joint's own limit, which says nothing about the
+        // From another start the tip may arrive within the joint's own limit, which tells nothing about the
         // range needed.
         const bool enough =
             some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * tolerance());
@@ -170,8 +170,8 @@ JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
 }
 
 std::optional<ActiveLimit> Explanation::find() noexcept {
-    // A method that gave up early may be at limits that stop nothing. So the default method continues first,
-    // as far as the limits allow, and the limits are freed from there.
+    // A method that gave up early may be at limits that stop nothing. So first let the default method
+    // continue as far as the limits allow, then free the limits from there.
     start_ = solve_on(options_.limits);
     limited_.saved = limited_.pose;
     find_candidates();

@@ -9,7 +9,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float min_freedom = 1e-5f;  ///< smaller half-angles are no range
+constexpr float min_freedom = 1e-5f;  ///< smaller half-angles count as no range
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(math::cosine(0.5f * angle), 0.0f), math::sine(0.5f * angle)};
@@ -135,7 +135,7 @@ glm::vec3 axis_along(const LimitedJoint& joint, const Split& parts, float up, fl
     const glm::vec3 about = plus(times(joint.axis, x), times(joint.side, y)),
                     ahead = minus(times(joint.side, x), times(joint.axis, y));
     const float angle = angle_per_sine(parts.cosine, squared) * sine;
-    const float s = 2.0f * sine * parts.cosine, c = 1.0f - 2.0f * squared;  // of the whole angle
+    const float s = 2.0f * sine * parts.cosine, c = 1.0f - 2.0f * squared;  // of the full angle
     const glm::vec3 across = times(minus(times(ahead, c), times(joint.bone, s)), round * angle / s);
     const glm::vec3 axis = plus(times(about, out), across);
     return times(axis, 1.0f / length(axis));

@@ -62,7 +62,7 @@ glm::quat rotation_of(const LimitedJoint& joint, const JointAngles& angles) noex
 /// Clamps to the limit: cone and twist separately.
 JointAngles within(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
-/// Whether any of the joint's angles is at its bound, or has no range at all.
+/// True if any of the joint's angles is at its bound, or has no range at all.
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
 /// The bounds that a rotation is at.

@@ -22,7 +22,7 @@ namespace {
 
 using namespace tune::limits;
 
-/// Whether the target is within reach, ignoring limits, and a lower bound of the residual.
+/// Status and minimum residual of the target if the chain had no limits.
 struct Reachable {
     Status status = Status::Converged;
     float residual = 0.0f;
@@ -43,7 +43,7 @@ bool is_turned(const Problem& problem) noexcept {
     return !rotation || length(*rotation) <= orientation_tolerance * orientation_arm * problem.scratch.reach;
 }
 
-/// Whether the tip is at the target, or as near as any pose brings it.
+/// True if the tip is at the target, or as near as any pose can bring it.
 bool arrived(const Problem& problem, const Reachable& can) noexcept {
     const float residual = limited_residual(problem);
     const float more = can.status == Status::Converged ? 0.0f : straight_tolerance * problem.scratch.reach;
@@ -61,7 +61,7 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     const glm::vec3 ahead = math::direction(problem.root(), problem.target, scratch.pose.directions[0]);
     const float allowed = straight_tolerance * problem.scratch.reach;
     float lost = 0.0f;     // distance lost to joints that cannot be straight
-    bool pointed = false;  // whether a longest bone has been found: the one that points ahead
+    bool pointed = false;  // a longest bone has been found: it points ahead
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const bool longest = !pointed && problem.lengths()[i] == problem.scratch.longest;
         pointed = pointed || longest;
@@ -81,13 +81,13 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     return true;
 }
 
-/// How the iterations ended for a pose that has not arrived.
+/// Reasons why the iterations ended with a pose that has not arrived.
 enum class End { Stalled, StalledInDescent, StalledAtOnce, Unfinished };
 
 Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
     if (end == End::Unfinished) return Status::IterationLimit;
-    // As near as floats can resolve or, out of reach, about as near as a chain that still straightens.
+    // As near as floats can resolve or, out of reach, about as near as a chain that is still straightening.
     const float reach = problem.scratch.reach;
     const float converged = std::max(
         problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
@@ -102,7 +102,7 @@ struct Attempt {
     Reachable can;
     float best = 0.0f;
     bool dragged = false;  ///< continues the last solve, for a target that moved little
-    float allowance = std::numeric_limits<float>::infinity();  ///< how far a joint may move, metres
+    float allowance = std::numeric_limits<float>::infinity();  ///< maximum move of a joint, metres
 };
 
 void save_if_nearer(Problem& problem, Attempt& attempt) noexcept {
@@ -162,7 +162,7 @@ bool bend_if_singular(Problem& problem, Watch watch) noexcept {
 template <class Watch>
 bool next_start(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     save_if_nearer(problem, attempt);
-    // A chain whose limits keep it stretched towards a dragged target was bent in vain by an earlier solve.
+    // If its limits keep a chain stretched towards a dragged target, an earlier solve has bent it in vain.
     const bool fixed = attempt.dragged && problem.state.limits.limited;
     if (!fixed && bend_if_singular(problem, watch)) return true;
     const int maximum = problem.options.restarts.value_or(attempt.dragged ? 0 : default_restarts);

@@ -118,7 +118,7 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
         const glm::quat by = unit(compose(compose(parent, local[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
         if (i == 0 || !is_from_base(scratch, i)) continue;
-        // A bone from the base does not turn with the bones before it, it only moves along.
+        // A bone measured from the base does not turn with the bones before it, it only moves along.
         target = plus(target, minus(at, tip));
         tip = at;
     }

@@ -48,7 +48,7 @@ void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) place_bone(problem, pose, i);
 }
 
-/// Only differences of stiffness count: the most mobile joint of a chain has mobility 1.
+/// Only differences in stiffness count: the most mobile joint of a chain has mobility 1.
 static void set_mobilities(LimitedScratch& scratch, std::span<const Limit> limits) noexcept {
     float most = 0.0f;
     for (const Limit& limit : limits) most = std::max(most, 1.0f - limit.stiffness);
@@ -82,7 +82,7 @@ bool load_pose(Problem& problem, Watch watch) noexcept {
     LimitedPose& pose = scratch.limited.pose;
     scratch.limited.linearized = false;
     pose.joints[0] = problem.root();
-    bool same = true;  // so far no joint was clamped
+    bool same = true;  // no joint clamped so far
     float furthest = 0.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         glm::quat rotation = problem.state.rotations[i];

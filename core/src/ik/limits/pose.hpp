@@ -21,7 +21,7 @@ static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
-/// Whether a bone's rotation is measured in the world: for the root's bone, and in a plane for bones whose
+/// True if a bone's rotation is measured in the world: for the root's bone and, in a plane, for bones whose
 /// limits are. Such a bone does not turn with the bones before it.
 static inline bool is_from_base(const LimitedScratch& scratch, std::size_t bone) noexcept {
     return bone == 0 || scratch.limits[bone].from_base;
@@ -35,7 +35,7 @@ static inline std::size_t end_of(const LimitedScratch& scratch, std::size_t bone
     return end;
 }
 
-/// The rotation that a bone's is relative to: the parent bone's world rotation, or identity.
+/// The reference of a bone's rotation: the parent bone's world rotation, or identity.
 static inline glm::quat parent_of(const LimitedScratch& scratch, const std::vector<glm::quat>& rotations,
                                   std::size_t bone) noexcept {
     return is_from_base(scratch, bone) ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
@@ -95,8 +95,8 @@ Result load_limits(Workspace& scratch, std::span<const Limit> limits, bool plana
 
 /// Loads the problem's joints and rotations into scratch.pose. If joints moved and rotations did not,
 /// transports the rotations to the joints, clamps each joint from the root on and places what follows it.
-/// Whatever is already consistent is kept bit for bit. Returns true if nothing was clamped and no rotation
-/// was off by more than 0.01 radians.
+/// Anything that is already consistent is kept bit for bit. Returns true if nothing was clamped and no
+/// rotation was off by more than 0.01 radians.
 template <class Watch>
 bool load_pose(Problem& problem, Watch watch) noexcept;
 /// Writes scratch.pose back to the problem.

@@ -1,4 +1,4 @@
-// Widened limits, and which bounds some angles exceed: used to explain a limit. Not installed.
+// Widened limits, and the bounds that some angles exceed: used to explain a limit. Not installed.
 #pragma once
 
 #include "ik/limits/joint.hpp"
@@ -11,7 +11,7 @@ namespace tendril::ik::detail {
 Limit opened(Limit limit, const JointAngles& angles) noexcept;
 /// The other side, for a joint without any range.
 Limit mirrored(Limit limit) noexcept;
-/// Whether its hinge angle, or its twist, has no range.
+/// True if its hinge angle, or its twist, has no range.
 bool has_no_range(const Limit& limit) noexcept;
 
 /// Widens the limit towards these angles: fully for `part` = 1, not at all for 0.

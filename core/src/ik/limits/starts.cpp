@@ -75,7 +75,7 @@ bool is_singular(Problem& problem) noexcept {
     linearize(problem, wanted);
     const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        // Unweighted: a stiff joint is not a singular one.
+        // Unweighted: a stiff joint does not make the pose singular.
         const JointFreedom& freedom = problem.scratch.limited.freedoms[i];
         const glm::vec3 rotation = allowed_part(freedom, free_rotation_by(freedom, wanted));
         if (dot(rotation, rotation) > singular * singular * requested) return false;

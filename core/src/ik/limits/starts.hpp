@@ -12,7 +12,7 @@
 
 namespace tendril::ik::detail {
 
-/// Whether the pose is singular for this request: J' e is almost zero, before any limit is active. O(n).
+/// True if the pose is singular for this request: J' e is almost zero, before any limit is active. O(n).
 bool is_singular(Problem& problem) noexcept;
 
 /// Bends the chain into an arc, as bend_collinear_chain does: the best of four ways, the first of which is

@@ -62,7 +62,7 @@ bool is_stopped_by_limits(Problem& problem, PoseUsed pose_used) noexcept {
         allowed += dot(rotation, rotation);
     }
     const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
-    // A chain of ball joints on a line with its target would have been bent already.
+    // A chain of ball joints on one line with its target would already have been bent.
     if (free <= singular * singular * requested) return !all_free(problem);
     return free - allowed >= min_limit_share * free;
 }
@@ -74,7 +74,7 @@ bool limits_stop_tip(Problem& problem, float converged) noexcept {
     const bool holds =
         descend_past_singularity(problem, converged) > converged && is_stopped_by_limits(problem);
     scratch.swap_pose(scratch.start);
-    problem.least_squares_steps = steps;  // do not count these as the method's
+    problem.least_squares_steps = steps;  // not counted as the method's
     return holds;
 }
 

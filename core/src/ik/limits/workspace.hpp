@@ -31,7 +31,7 @@ struct LimitedPose {
 /// The world axes about which a joint may rotate.
 struct JointFreedom {
     glm::vec3 arm{0.0f};              ///< from the joint to the end of the bones that it turns, in reaches
-    bool turns_tip = true;            ///< whether the tip's bone turns with it
+    bool turns_tip = true;            ///< the tip's bone turns with it
     bool ball = true;                 ///< true: all axes but those listed; false: only those listed
     int count = 0;                    ///< number of axes
     float mobility = 1.0f;            ///< as LimitedJoint::mobility
@@ -55,9 +55,9 @@ struct LimitedScratch {
     std::vector<std::size_t> bounded;    ///< n: joints at a bound; the first `at_bounds` are used
     std::size_t at_bounds = 0;
     Normal normal;            ///< the matrix with no one-sided bound active
-    bool linearized = false;  ///< whether `freedoms` to `normal` match `pose`
-    bool planar = false;      ///< whether `limits` are a planar chain's
-    bool made = false;        ///< whether `limits` has been filled, for these rest directions
+    bool linearized = false;  ///< `freedoms` to `normal` match `pose`
+    bool planar = false;      ///< `limits` are a planar chain's
+    bool made = false;        ///< `limits` has been filled, for these rest directions
     LimitedPose pose;         ///< the current one
     LimitedPose trial;        ///< result of a step, not accepted yet
     LimitedPose best;         ///< best pose so far, if the solve restarts elsewhere

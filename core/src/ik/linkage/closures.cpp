@@ -1,4 +1,4 @@
-// The closures: the rows of their equations, Newton's steps back to them, and how a linkage is assembled.
+// The closures: the rows of their equations, Newton's steps back to them, and the assembly of a linkage.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -127,11 +127,11 @@ void LinkageSolve::assemble() noexcept {
     if (project_to_closures(1e9)) return;
     restore(work_.nearest);
     if (close_from_here()) return;
-    // The pose is unchanged since the last solve, or iterations ran out: the next solve continues.
+    // The pose has not changed since the last solve, or iterations ran out: the next solve continues.
     if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
     double least_cost = cost();
-    bool cut_short = false;  // whether the nearest pose's descent ran out of iterations
+    bool cut_short = false;  // the nearest pose's descent ran out of iterations
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
         work_.randomize_step(random, math::pi);

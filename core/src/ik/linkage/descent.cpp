@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double shortest_step = 1e-10;  ///< radians or sizes; below it a descent has ended
+constexpr double shortest_step = 1e-10;  ///< radians or sizes; a shorter one ends the descent
 constexpr double retry_damping = 1e-3;   ///< minimum damping after a rejected step
 
 double largest_of(std::span<const double> step) noexcept {
@@ -73,7 +73,7 @@ void LinkageSolve::find_equations() noexcept {
 void LinkageSolve::find_curvature() noexcept {
     work_.basis.multipliers(work_.force, work_.multiplier);
     for (std::size_t k = 0; k < work_.basis.rank();) {
-        // The rows of one block follow each other.
+        // The rows of one block are consecutive.
         const std::size_t block = work_.row_origin[k] / 6;
         std::array<double, 6> by{};
         for (; k < work_.basis.rank() && work_.row_origin[k] / 6 == block; ++k)
@@ -192,7 +192,8 @@ bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
     return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
 }
 
-/// Takes one damped step and projects to the closures. If it gains nothing, restores the pose: false.
+/// Takes one damped step and projects to the closures. If that gains nothing, restores the pose and returns
+/// false.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
@@ -215,7 +216,7 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     }
     store_active();
     if (!(largest_of(work_.step) > shortest_step)) return false;
-    // Negative curvature: the gradient starts small and grows, so the step is made long.
+    // With negative curvature the gradient starts small and grows, so take a long step.
     constexpr double long_step = 0.1;
     const double turn = work_.max_turn();
     const bool lengthen = !convex_ && negative_curvature_ && damping < retry_damping;

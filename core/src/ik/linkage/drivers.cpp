@@ -8,7 +8,7 @@ namespace tendril::ik::detail {
 namespace {
 
 /// Minimum substep, radians or sizes; a driver that needs a shorter one stops. A joint is then off a dead
-/// point by the square root of this; were closures not far finer, the solve could change sides.
+/// point by the square root of this. Unless closures are far finer, the solve could change sides.
 constexpr double min_substep = 1e-7;
 
 }  // namespace
@@ -52,7 +52,7 @@ void LinkageSolve::find_tangent(double from, double to) noexcept {
     } while (update_active_set());
 }
 
-/// One substep along the tangent. Where branches may cross there is none: repeats the last move.
+/// One substep along the tangent. If branches may cross there is no tangent: repeats the last move.
 bool LinkageSolve::drive_substep(double from, double to) noexcept {
     constexpr double crossing = 1e-2;
     find_tangent(from, to);

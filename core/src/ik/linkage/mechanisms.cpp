@@ -21,7 +21,7 @@ Point2 point_at_angle(double radius, double radians) noexcept {
     return {radius * turn.cosine, radius * turn.sine};
 }
 
-/// Where two circles cross, left of the line from `a` to `b`; where they come nearest if they do not.
+/// The crossing of two circles left of the line from `a` to `b`; their nearest approach if they do not cross.
 Point2 left_crossing(const Point2& a, double radius_a, const Point2& b, double radius_b) noexcept {
     const Point2 line{b.x - a.x, b.y - a.y};
     const double square = std::max(line.x * line.x + line.y * line.y, 1e-300);
@@ -35,7 +35,7 @@ constexpr SketchHold pinned = SketchHold::Pinned;
 double point_distance(const Point2& a, const Point2& b) noexcept {
     return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
 }
-/// Whether bars of the lengths `a` and `b` can join two points `apart`, within rounding.
+/// True if bars of the lengths `a` and `b` can join two points `apart`, within rounding.
 bool closes_triangle(double apart, double a, double b) noexcept {
     const double slack = 1e-12 * (a + b + apart);
     return apart <= a + b + slack && apart >= std::abs(a - b) - slack;
@@ -47,7 +47,7 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
     const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
     if (const Result bad = check_fields("four_bar", lengths); !bad) return bad;
     // Range of the distance BD that crank and ground allow, and coupler and rocker too. If the crank cannot
-    // be at 0, or the linkage would be flat there or B on D, it is drawn in the middle of that range.
+    // be at 0, or if the linkage would be flat there or B on D, it is drawn in the middle of that range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
                  high = std::min(ground + crank, coupler + rocker);
     if (!(low <= high)) {
@@ -85,7 +85,7 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
     if (const Result bad = check_fields("slider_crank", lengths); !bad) return bad;
     if (!(std::abs(offset) <= crank + rod))
         return refused("slider_crank", "offset", "at most crank and rod together", offset);
-    // Where the rod does not reach down from a crank at 0, the crank is turned towards the slider's line.
+    // If the rod does not reach down from a crank at 0, turn the crank towards the slider's line.
     const double lift = std::abs(offset) <= rod
                             ? 0.0
                             : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
@@ -201,7 +201,7 @@ std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t
     return linkage.links.size() - 1;
 }
 
-/// The platform hangs on the first rod by a ball; the others close on it.
+/// Hangs the platform on the first rod by a ball; the other rods close on it.
 void join_platform(Linkage& linkage, std::size_t& platform, std::size_t rod, const std::string& name,
                    const glm::dvec3& at) {
     if (platform != ground_link) {

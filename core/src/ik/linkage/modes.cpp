@@ -1,4 +1,4 @@
-// Assembly modes: identifies a pose's mode, and finds another.
+// Assembly modes: identifies the mode of a pose, and finds another.
 #include <algorithm>
 #include <cmath>
 
@@ -40,13 +40,13 @@ int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noe
     return work_.basis.rank() < wanted ? 0 : work_.basis.orientation(work_.held, work_.square);
 }
 
-/// Whether the last substep of a drive, which began at `before_step`, jumped to another branch; if so, undoes
+/// True if the last substep of a drive, which began at `before_step`, jumped to another branch; then undoes
 /// it. Branches nearer to each other than `crossing` count as crossing.
 bool LinkageSolve::jumped_branch() noexcept {
     // Radians or sizes. The closures' tolerance determines a singular pose only to its square root, 1e-5.
     constexpr double crossing = 1e-4;
-    // From 30 degrees off a singular pose, a substep does not get 30 degrees beyond it: no joint turns by
-    // more than max_turn_step.
+    // A substep from 30 degrees off a singular pose cannot end 30 degrees beyond it: no joint turns by more
+    // than max_turn_step.
     constexpr double far_from_singular = 0.5;
     if (min_rank_margin_ > far_from_singular || length_of_step_ <= crossing) return false;
     std::size_t before_count = 0, count = 0;
@@ -100,8 +100,8 @@ double distance_of_modes(const LinkageWork& work, const std::vector<JointPlace>&
     return sum;
 }
 
-/// A number by which the modes of one linkage are put in order; the same for a whole turn more. Generic, so
-/// that no symmetry gives two modes the same number: turned by phases that no two joints share.
+/// A number that orders the modes of one linkage; the same for a whole turn more. Generic, so that no
+/// symmetry gives two modes the same number: turned by phases that no two joints share.
 double place_in_order(const LinkageWork& work) noexcept {
     double place = 0.0;
     for (std::size_t i = 0; i < work.joints.size(); ++i) {
@@ -128,8 +128,8 @@ double place_in_order(const LinkageWork& work) noexcept {
 Result find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers,
                        OtherMode which) noexcept {
     const auto none_found = [](const char* why) { return Result(ErrorCode::NotFound, why); };
-    // Of the eight modes of Jansen's leg, at 360 angles of its crank: 12 starts per closure miss one at 19,
-    // 24 at one.
+    // Measured on the eight modes of Jansen's leg, at 360 angles of its crank: 12 starts per closure miss one
+    // at 19 angles, 24 at one.
     constexpr std::size_t starts_per_closure = 48, max_starts = 1000;
     constexpr double same = 1e-6, none = 1e300;
     const std::size_t starts = std::min(max_starts, starts_per_closure * work.linkage.closures.size());
@@ -168,7 +168,7 @@ Result find_other_mode(LinkageWork& work, LinkageState& state, std::span<const L
         if (distance < same || solve.mode() == 0) continue;
         if (which == OtherMode::Next) {
             distance = place_in_order(work) - place_here;
-            if (distance < 0.0) distance += 1e9;  // first come those behind it, then those before
+            if (distance < 0.0) distance += 1e9;  // first those behind it, then those before
         }
         if (distance >= least) continue;
         least = distance;

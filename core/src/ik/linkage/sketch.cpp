@@ -198,7 +198,7 @@ class SketchTree {
                 place_bar(motor.bar, motor.point, ground_link, i);
                 return true;
             }
-            // The bar placed first becomes the parent of the other.
+            // The bar that is placed first becomes the parent of the other.
             const bool bar = link_of_bar_[motor.bar] != unplaced,
                        against = link_of_bar_[motor.against] != unplaced;
             if (bar == against) continue;
@@ -211,7 +211,7 @@ class SketchTree {
         return false;
     }
     bool place_next_bar() {
-        // A bar that a motor turns waits for the bar that it turns against, as long as there are others.
+        // A bar that a motor turns waits for the bar that it turns against while there are others.
         for (const bool waits : {true, false})
             for (std::size_t i = 0; i < sketch_.bars.size(); ++i) {
                 if (link_of_bar_[i] != unplaced || (waits && is_turned(i))) continue;
@@ -300,7 +300,7 @@ std::vector<Bars> split_rigid(const LinkageSketch& sketch, const Bars& set) {
         for (SketchPoint& each : subset.points) each.hold = SketchHold::Free;
     const std::vector<std::vector<double>> free = SketchTree(subset).free_turning();
     const auto alike = [&](std::size_t a, std::size_t b) {
-        constexpr double rounding = 1e-6;  // well above 1e-9, what counts for the rank of a row
+        constexpr double rounding = 1e-6;  // well above the 1e-9 that counts for the rank of a row
         return std::ranges::equal(free[a], free[b],
                                   [](double x, double y) { return std::abs(x - y) < rounding; });
     };

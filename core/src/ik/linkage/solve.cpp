@@ -70,9 +70,9 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
     report.freedom = static_cast<int>(free_columns() - closure_rank());
 }
 
-/// Reports the target point that moved furthest, if far beyond its initial pull.
+/// Reports the target point that moved furthest, if it moved far beyond its initial pull.
 void LinkageSolve::find_jump(LinkageReport& report) noexcept {
-    constexpr double ratio = 4.0, min_share = 0.01;  // of the size
+    constexpr double ratio = 4.0, min_share = 0.01;  // fraction of the size
     const double expected = std::max(ratio * initial_move_, min_share * work_.size);
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         const LinkTarget& target = goals_.targets[i];

@@ -8,7 +8,7 @@
 
 namespace tendril::ik::detail {
 
-constexpr double max_turn_step = 0.5;  ///< of a joint, radians: beyond it the tangent misleads
+constexpr double max_turn_step = 0.5;  ///< radians of a joint: beyond it the tangent misleads
 constexpr double reached = 1e-6;       ///< tolerance of a driver or target, radians or sizes
 
 inline double norm_of(std::span<const double> step) noexcept {
@@ -90,9 +90,9 @@ class LinkageSolve {
     int iterations_ = 0;
     Aim aim_ = Aim::Closures;
     bool closes_ = true;  ///< closures are constraints, not goals
-    /// Smallest part of a closure row that is independent of the rows before; near 0 at a loss of rank.
+    /// Minimum part of a closure row that is independent of the previous rows; near 0 at a loss of rank.
     double rank_margin_ = 1.0;
-    double min_rank_margin_ = 1.0;     ///< the smallest of these in a substep of a drive
+    double min_rank_margin_ = 1.0;     ///< minimum of these in a substep of a drive
     double length_of_step_ = 0.0;      ///< predicted length of that substep
     bool keeps_exact_ = false;         ///< exact targets are constraints too
     double max_weight_ = 0.0;          ///< maximum weight of the aim's targets
@@ -103,7 +103,7 @@ class LinkageSolve {
     bool negative_curvature_ = false;  ///< the cost curves downwards along the last step
     /// Metres by which a step along the first gradient moves the targets' points. Negative until known.
     double initial_move_ = -1.0;
-    bool was_nonconvex_ = false;  ///< whether a step with negative_curvature_ was taken
+    bool was_nonconvex_ = false;  ///< a step with negative_curvature_ was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 

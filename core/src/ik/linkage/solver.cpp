@@ -62,7 +62,7 @@ Result check_state(const char* op, const LinkageState& state, const detail::Link
     return {};
 }
 
-/// Whether there is such a link and its joint has one value: not a ball's.
+/// True if there is such a link and its joint has one value, so it is not a ball.
 bool has_value(std::size_t link, const detail::LinkageWork& work) noexcept {
     return link < work.linkage.links.size() && work.linkage.links[link].joint != LinkJoint::Ball;
 }

@@ -262,7 +262,7 @@ void LinkageWork::clamp_to_ranges() noexcept {
         const Link& link = linkage.links[i];
         glm::dquat& turn = joints[i].turn;
         if (link.joint != LinkJoint::Ball) {
-            // Two sliders that are nearly parallel may go far apart; a state's values are within
+            // Two sliders that are nearly parallel may go far apart, but a state's values are within
             // max_magnitude.
             constexpr double furthest = static_cast<double>(max_magnitude);
             joints[i].value = std::clamp(joints[i].value, std::max(link.minimum, -furthest),
@@ -351,7 +351,7 @@ void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const gl
         for (std::size_t a = 0; a < (ball ? 3u : 1u); ++a) {
             const glm::dvec3 axis = ball ? world_axes[a] : axes[inner];
             const glm::dvec3 moves = kind == LinkJoint::Slider ? times(axis, size) : cross(axis, arm);
-            // A ball's rotation has no order of axes: half about one axis first, half about the other.
+            // A ball's rotation has no order of axes: take half about one axis first, half about the other.
             if (kind == LinkJoint::Hinge) add(column[inner], column[inner], dot(along, cross(axis, moves)));
             for (std::size_t b = 0; ball && b <= a; ++b) {
                 const glm::dvec3 other = cross(world_axes[b], arm);

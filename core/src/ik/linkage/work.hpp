@@ -26,8 +26,8 @@ class RowBasis {
     void clear() noexcept { count_ = 0; }
     std::size_t rank() const noexcept { return count_; }
 
-    /// Makes `row` orthogonal to the earlier rows, normalises and stores it; returns its length in between.
-    /// Returns 0 and stores nothing if only rounding beside `scale` is left.
+    /// Makes `row` orthogonal to the earlier rows, normalises and stores it. Returns its length before
+    /// normalising, or 0, storing nothing, if only rounding relative to `scale` is left.
     double add(std::span<double> row, double scale) noexcept;
     /// Removes the part that the rows span.
     void remove_from(std::span<double> row) const noexcept;
@@ -62,15 +62,15 @@ struct LinkageWork {
     std::vector<std::size_t> column;     ///< each link's first column
     std::size_t columns = 0;
     double size = 0.0;
-    double rounding = 0.0;               ///< metres: far from the origin, a closure cannot get closer
+    double rounding = 0.0;               ///< metres: far from the origin, a closure cannot get any closer
     std::vector<std::uint8_t> straight;  ///< columns of sliders on no loop: steps of any length are exact
     bool planar = false;
-    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar linkage
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< normal of a planar linkage
 
-    // The pose, and what follows from it.
+    // The pose, and data that depends on it.
     std::vector<JointPlace> joints;
     std::vector<LinkPlace> places;
-    std::vector<glm::dvec3> origins, axes;  ///< of the joints, in the world, as move_links() computes them
+    std::vector<glm::dvec3> origins, axes;  ///< the joints', in the world, as computed by move_links()
     void move_links() noexcept;
     glm::dvec3 point_of(std::size_t link, const glm::dvec3& drawn) const noexcept {
         return link == ground_link ? drawn : places[link].point(drawn);
@@ -84,18 +84,18 @@ struct LinkageWork {
     std::vector<double> moved;            ///< sum of the steps since the return to the closures began
     std::vector<JointPlace> before_step;  ///< before a step
     std::vector<JointPlace> saved;        ///< before a perturbation
-    std::vector<JointPlace> nearest;      ///< the pose nearest to closing, of several restarts
+    std::vector<JointPlace> nearest;      ///< the most nearly closed pose of several restarts
     /// Moves the joints by `part` of the step, within their ranges.
     void take_step(double part) noexcept;
     /// Fills the step with pseudo-random numbers up to `range`; drivers' stay 0.
     void randomize_step(std::uint64_t& random, double range) noexcept;
     /// Holds only the drivers' columns.
     void release() noexcept;
-    /// Brings the joints into their ranges, and balls to unit rotations.
+    /// Brings the joints into their ranges, and normalises the rotations of balls.
     void clamp_to_ranges() noexcept;
     /// The axis, in the world, about which a ball is turned; unit.
     glm::dvec3 outward_of(std::size_t link) const noexcept;
-    /// Whether a ball is at its maximum and the step would turn it further.
+    /// True if a ball is at its maximum and the step would turn it further.
     bool pushes_outward(std::size_t link) const noexcept;
     /// Radians (hinge) or metres (slider) per unit of the link's column.
     double unit_of(std::size_t link) const noexcept {
@@ -115,7 +115,7 @@ struct LinkageWork {
     }
     std::vector<double> block_rows;  ///< six rows
     Block closure_block(std::size_t index) noexcept;
-    /// How many equations a closure has. Those across the plane of a planar linkage are 0 = 0, and left out.
+    /// Number of equations of a closure. Those across the plane of a planar linkage are 0 = 0 and omitted.
     std::size_t equations_of(const Closure& closure) const noexcept {
         return (planar ? 2u : 3u) + (closure.kind == ClosureKind::Point ? 0u : planar ? 1u : 3u);
     }
@@ -139,13 +139,13 @@ struct LinkageWork {
     std::vector<double> multiplier;        ///< by row of the basis
     std::vector<double> curvature;         ///< second derivatives, symmetric
     std::vector<double> factor, solution;
-    /// Add the second derivatives of a closure's gap or a point's position along a vector.
+    /// Adds the second derivatives of a closure's gap or a point's position along a vector.
     void add_closure_curvature(std::size_t index, const glm::dvec3& along) noexcept;
     void add_point_curvature(std::size_t point, const glm::dvec3& along) noexcept;
 
     // The goals.
-    std::vector<glm::dvec3> target_starts;    ///< where the targets' points were
-    std::vector<glm::dvec3> exact_positions;  ///< where exact targets keep their points
+    std::vector<glm::dvec3> target_starts;    ///< start positions of the targets' points
+    std::vector<glm::dvec3> exact_positions;  ///< positions at which exact targets keep their points
     std::vector<double> driver_starts;        ///< by link
 
     // The sign of LinkageSolve::mode(), valid for this pose and these held columns.

@@ -1,4 +1,4 @@
-// The step that makes FABRIK fast near full reach, and wherever else it converges slowly.
+// The step that makes FABRIK fast near full reach, and elsewhere if it converges slowly.
 //
 // A pass hands a bend on from joint to joint and removes little of it, so a chain whose tip falls short by
 // one in a thousand needs hundreds of passes to straighten that much. This step keeps the shape that the
@@ -16,8 +16,8 @@
 // for the remaining distance to the target; or, if they are too short for that, they fold back along the
 // longest.
 //
-// Cost: O(n), usually one or two square roots per bone. They are independent, unlike a
-// pass's, so the step takes about as long as the passes.
+// Cost: O(n), usually one or two square roots per bone. Unlike a pass's, they are independent, so the step
+// takes about as long as the passes.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Family {
     std::size_t fixed = 0;      ///< index of the bone that does not turn; the number of bones if none
     glm::vec3 first{0.0f};      ///< start of the span: the fixed bone, or zero
     glm::vec3 aim{0.0f};        ///< required end of the span, after turning it
-    bool rotates_fixed = true;  ///< whether that turns the fixed bone too
+    bool rotates_fixed = true;  ///< the turn includes the fixed bone
     float wanted = 0.0f;        ///< length of `aim`
     float straight = 0.0f;      ///< length of the span at t = 0
     float now = 0.0f;           ///< length of the span at t = 1
@@ -49,8 +49,8 @@ struct FamilyFit {
     glm::vec3 span{0.0f};
     float size = 0.0f;       ///< length of `span`
     float error = FLT_MAX;   ///< deviation from the wanted length
-    bool found = false;      ///< whether the wanted length was bracketed
-    bool is_shaped = false;  ///< whether scratch.old holds this shape
+    bool found = false;      ///< the wanted length was bracketed
+    bool is_shaped = false;  ///< scratch.old holds this shape
 };
 
 /// Writes the bones of a shape into scratch.old and returns their span.
@@ -98,7 +98,7 @@ FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcep
             high = next, at_high = off;
         } else if (best.found) {
             low = next, at_low = off;
-        } else {  // still too short at the estimated bend
+        } else {  // still too short with the estimated bend
             next = std::max(next, strong_bend);
             continue;
         }
@@ -107,7 +107,7 @@ FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcep
     return best;
 }
 
-/// All bones but the fixed one bend or straighten; `span` is their span.
+/// All bones except the fixed one bend or straighten; `span` is their span.
 Family blend_of(const glm::vec3& span, const glm::vec3& aim, float reach, std::size_t fixed) noexcept {
     Family family;
     family.fixed = fixed;

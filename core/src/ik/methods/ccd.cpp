@@ -7,8 +7,8 @@
 // Cost: O(n) per iteration. While a joint turns, those nearer to the root do not move; so the pass that finds
 // the rotations moves only the tip, and a second one applies all rotations.
 //
-// It converges to any target within reach, but slowly near full reach, and it curls the bones near the tip
-// first: a joint there rotates as freely as one at the root, and comes first.
+// It converges to any target within reach, but slowly near full reach. It curls the bones near the tip first:
+// a joint there rotates as freely as one at the root, and comes first.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Solvers that use the Jacobian J, the matrix of how far each small joint rotation moves the tip. Ball
+// Solvers that use the Jacobian J, the matrix of the tip's motion per small rotation of each joint. Ball
 // joints: three columns per joint, axis x (tip - joint) for the three world axes.
 //
 //     jacobian transpose   turns = a J' e              W. A. Wolovich, H. Elliott, "A computational technique

@@ -29,7 +29,7 @@ struct Triangle {
     double along = 0.0;   ///< from root to mid, on the line to the target
     double height = 0.0;  ///< height of mid above that line
     double span = 0.0;    ///< from root to tip, along that line
-    bool reaches = true;  ///< whether the tip is exactly at the target
+    bool reaches = true;  ///< the tip is exactly at the target
     Status status = Status::Converged;
 };
 
@@ -67,12 +67,12 @@ struct Given {
 glm::dvec3 limb_line(const Given& given) noexcept {
     if (const auto ahead = direction_of(given.target, 0.0)) return *ahead;
     if (const auto present = direction_of(given.tip, no_side * given.reach)) return *present;
-    // Folded upon itself: any line perpendicular to the bones.
+    // Folded onto itself: any line perpendicular to the bones.
     if (const auto bone = direction_of(given.mid, 0.0)) return perpendicular(*bone);
     return {1.0, 0.0, 0.0};
 }
 
-/// Applies the minimal rotation that takes `from` to `to` to `v`, which is perpendicular to `from`.
+/// Applies to `v`, perpendicular to `from`, the minimal rotation that takes `from` to `to`.
 glm::dvec3 transported(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) noexcept {
     const double w = 1.0 + dot(from, to);
     if (w < 1e-12) return v;  // half a turn, about v itself
@@ -103,7 +103,7 @@ glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOpti
         const glm::dvec3 arm = minus(wide(*options.pole), root);
         pole = direction_of(across(arm, line), no_side * std::max(given.reach, length(arm)));
     }
-    // A pole on the line gives no side: keep the current one, which already includes the twist.
+    // A pole on the line defines no side: keep the current one, which already includes the twist.
     if (options.pole && !pole && present) return *present;
     const glm::dvec3 start = pole ? *pole : present ? *present : perpendicular(line);
     const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;

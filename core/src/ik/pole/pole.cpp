@@ -44,10 +44,10 @@ bool lies_along(const Problem& problem, const std::optional<glm::dvec3>& line) n
     return line && bend_of(problem, *line).furthest <= straight * static_cast<double>(problem.scratch.reach);
 }
 
-/// Whether the chain lies on the line to its target. In a plane also if it is folded up on any other line,
-/// its tip at its root: such a chain was not turned to its target and would zigzag all the way there. Its
-/// offsets from the line from root to tip cancel out, so rounding would decide its side and mirror it again
-/// and again.
+/// True if the chain lies on the line to its target. In a plane, also true if it is folded up on any other
+/// line with its tip at its root: such a chain was not turned to its target and would zigzag all the way
+/// there. Its offsets from the line from root to tip cancel out, so rounding would decide its side and mirror
+/// it again and again.
 bool is_on_line(const Problem& problem, const glm::dvec3& to_target) noexcept {
     if (lies_along(problem, to_target)) return true;
     const glm::vec3 root = problem.root(), tip = minus(problem.joints.back(), root);
@@ -95,8 +95,8 @@ double half_angle_of_arc(double span) noexcept {
     return h;
 }
 
-/// Direction of the pole from `from`, perpendicular to the line; none if the pole is on the line, to
-/// precision. In a plane: the chosen side of the line.
+/// Direction of the pole from `from`, perpendicular to the line; none if the pole is on the line, within
+/// rounding. In a plane: the chosen side of the line.
 std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& from,
                                     const glm::dvec3& line) noexcept {
     if (problem.options.plane) return planar_side(problem, line);
@@ -105,8 +105,8 @@ std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& fr
     return direction_of(across(arm, line), std::max(minimum, min_offset * length(arm)));
 }
 
-/// The angle about `line` by which the whole chain faces its pole, limited by the allowance, which it uses
-/// up.
+/// The angle about `line` by which the whole chain turns to face its pole, limited by the allowance, which it
+/// uses up.
 double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
     const Bend bend = bend_of(problem, line);
     const double minimum = min_offset * static_cast<double>(problem.scratch.reach);
@@ -126,8 +126,8 @@ void place(Problem& problem, std::size_t joint, std::size_t about, const glm::dv
     watch.moved(problem.iteration, Phase::Pole, joint, about, from, problem.joints[joint]);
 }
 
-/// Rotates the chain rigidly about its root. Restores the lengths of bones on the way: solves that move a
-/// chain in no other way would let them drift.
+/// Rotates the chain rigidly about its root. Restores the lengths of bones on the way; otherwise they would
+/// drift in solves that move a chain in no other way.
 template <class Watch>
 void rotate_chain(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     glm::vec3 before = problem.root();
@@ -141,7 +141,7 @@ void rotate_chain(Problem& problem, const AxisAngle& rotation, Watch watch) noex
     watch.next_step();
 }
 
-/// Rotates all joints but root and tip about a line through the root.
+/// Rotates all joints except root and tip about a line through the root.
 template <class Watch>
 void swivel(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     const glm::dvec3 root = wide(problem.root());
@@ -153,7 +153,7 @@ void swivel(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
 
 template <class Watch>
 void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
-    // With the tip at the root, the tolerance decides where a line in the plane points.
+    // With the tip at the root, the tolerance decides in which direction a line in the plane points.
     const double minimum =
         (problem.options.plane ? closed_tip : min_offset) * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =

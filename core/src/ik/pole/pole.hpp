@@ -1,4 +1,4 @@
-// The pole: a point that the elbow or knee of a chain points at. Not installed.
+// The pole: a point that the elbow or knee of a chain faces. Not installed.
 //
 // A chain's bend is the sum of the joints' offsets from the line through root and tip, each weighted by the
 // lengths of the adjacent bones; so it points to the side on which the chain has its area.
@@ -7,8 +7,8 @@
 //
 // PoleTurn::EachJoint turns one joint after the other, from the root on, about the line through its two
 // neighbours, to the point of its circle nearest to the pole. Every turn brings the joints as a whole nearer
-// to the pole, so sweeps over the chain converge. There are up to 64 if nothing limits the turns, and one per
-// solve if something does (see below).
+// to the pole, so sweeps over the chain converge. There are up to 64 sweeps if nothing limits the turns, and
+// one per solve otherwise (see below).
 //
 // No jumps. Turning only at the end would jump, for three reasons, each with its own remedy:
 //
@@ -20,7 +20,7 @@
 //  2. For a shape whose offsets cancel out, such as an S, no rule can define a side that changes smoothly:
 //     with three bones or more such a rule would be a section of the Hopf bundle, which has none.
 //  3. Near the pole's line, a small step of the target is a large turn about it. With the pole 0.05 R beside
-//     the line, R ahead, and the target at 0.05 R, a step of 0.0001 R already asks for 20 mm per metre.
+//     the line, R ahead, and the target at 0.05 R, a step of 0.0001 R already requires 20 mm per metre.
 //
 // For 2 and 3, a solver remembers how the last solve with a pole left the chain, and limits the turn by what
 // has changed since (the allowance). The chain may then lag behind its pole; it catches up even if nothing
@@ -67,9 +67,9 @@ Side planar_side(const Problem& problem) noexcept;
 template <class Watch>
 void face_pole(Problem& problem, Watch watch) noexcept;
 
-/// How far a joint may move to face the pole, metres: a fixed part of the reach plus a multiple of what
-/// target, pole and joints have moved (relative to the root) since the last solve; infinity if they jumped,
-/// or if the last solve had no pole or another PoleTurn.
+/// Maximum distance that a joint may move to face the pole, metres: a fixed part of the reach plus a multiple
+/// of the distance that target, pole and joints have moved (relative to the root) since the last solve;
+/// infinity if they jumped, or if the last solve had no pole or another PoleTurn.
 double pole_allowance(const Problem& problem) noexcept;
 
 /// Stores the pose, for methods that face the pole themselves. Without a pole, clears the memory.

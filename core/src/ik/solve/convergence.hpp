@@ -23,12 +23,12 @@ class Convergence {
     Convergence(const StallRule& rule, float error, float reach) noexcept
         : rule_(rule), scale_(0.1f * reach), best_(error), mark_(error), last_(error) {}
 
-    /// Called after a perturbation: forgets everything but `best`.
+    /// Call after a perturbation: forgets everything except `best`.
     void restart(float error) noexcept {
         mark_ = last_ = error;
         idle_ = 0;
     }
-    /// For a loop that continues from a stalled one: the next iteration without gain is the last.
+    /// Call to continue from a stalled loop: the next iteration without gain is the last.
     void resume_stalled() noexcept { idle_ = rule_.window - 1; }
     /// Marks the loop as stalled: nothing more can be gained.
     void end() noexcept { idle_ = rule_.window; }

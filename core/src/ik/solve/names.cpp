@@ -15,7 +15,7 @@ constexpr const char* statuses[] = {"Converged", "Stretched",      "TooClose",  
                                     "Stalled",   "IterationLimit", "InvalidInput"};
 constexpr const char* bounds[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
 
-/// A saved report's: steps; metres, infinite if it was refused.
+/// Ranges in a saved report: steps; metres, infinite if it was refused.
 constexpr FieldRange steps{0.0, 1e9}, distances{0.0, std::numeric_limits<double>::infinity()},
     angles{-10.0, 10.0};
 

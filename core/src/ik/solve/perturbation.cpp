@@ -58,11 +58,11 @@ float scattered(std::size_t bone, std::uint32_t salt) noexcept {
 bool is_collinear(const Problem& problem) noexcept {
     const float near = 1e-5f * problem.scratch.reach;
     const glm::vec3 first = minus(problem.target, problem.root());
-    // Most chains are bent: three points usually show it, without computing the longest line.
+    // Most chains are bent, and three points usually show it without computing the longest line.
     if (const float far = length(first); far > 0.1f * problem.scratch.reach) {
         const glm::vec3 line = times(first, 1.0f / far);
         for (const glm::vec3& joint : problem.joints) {
-            // Measured against a shorter line, the same joints may seem further off.
+            // Measured against a shorter line, the same joints may seem further off it.
             if (!is_near_line(minus(joint, problem.root()), line, 20.0f * near)) return false;
         }
     }

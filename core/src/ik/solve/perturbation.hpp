@@ -1,5 +1,5 @@
-// The collinear singularity: if a chain lies on a line with its target, no method can tell which way to bend
-// it. It is bent a little, deterministically. Not installed.
+// The collinear singularity: if a chain lies on one line with its target, no method can tell which way to
+// bend it. Such a chain is bent a little, deterministically. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ glm::vec3 line_of(const Problem& problem) noexcept;
 /// Pseudo-random, -1 to 1, without a regular pattern.
 float scattered(std::size_t bone, std::uint32_t salt) noexcept;
 
-/// Whether root, joints and target lie on one line, to 1e-5 of the reach. O(n) at worst, usually O(1): it
+/// True if root, joints and target lie on one line, to 1e-5 of the reach. O(n) at worst, usually O(1): it
 /// stops at the first point off the line.
 bool is_collinear(const Problem& problem) noexcept;
 

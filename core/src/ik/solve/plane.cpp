@@ -18,7 +18,7 @@ glm::dvec3 base_of(const glm::dvec3& normal, const glm::dvec3& rest) noexcept {
     return direction_of(math::across(rest, normal), 1e-4).value_or(perpendicular(normal));
 }
 
-/// Shows the steps of a solve in the plane's coordinates in the world.
+/// Reports in world space the steps of a solve in the plane's coordinates.
 class PlaneObserver final : public Observer {
   public:
     PlaneObserver(const PlaneFrame& frame, Observer& to) noexcept : frame_(frame), to_(to) {}
@@ -152,8 +152,8 @@ Options PlaneProblem::local_options() noexcept {
     return options;
 }
 
-/// Chooses the pole's side of the line from root to target; without a pole, the requested side; without one,
-/// the side that the chain is on, or was on.
+/// Chooses the pole's side of the line from root to target; without a pole, the requested side; without
+/// either, the side that the chain is on, or was on.
 void PlaneProblem::choose_side() noexcept {
     Side& side = options_.plane->bend;
     if (given_.pole) {

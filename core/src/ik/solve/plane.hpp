@@ -26,7 +26,8 @@ class PlaneFrame {
     glm::vec3 world(const glm::vec3& point) const noexcept;
     glm::vec3 local_vector(const glm::vec3& vector) const noexcept;
     glm::vec3 world_vector(const glm::vec3& vector) const noexcept;
-    /// World position of a joint with these coordinates; bit for bit `was`, its old one, if it has not moved.
+    /// World position of a joint with these coordinates. Returns `was`, its old position, bit for bit if it
+    /// has not moved.
     glm::vec3 returned(const glm::vec3& local, const glm::vec3& was, float reach) const noexcept;
     /// Signed distance from the plane, metres.
     double off(const glm::vec3& point) const noexcept;
@@ -37,8 +38,8 @@ class PlaneFrame {
     glm::dvec3 root_, along_, normal_, across_;
 };
 
-/// A validated solve in the plane of its options. While this lives, the workspace describes the chain in the
-/// plane's coordinates.
+/// A validated solve in the plane of its options. During its lifetime the workspace describes the chain in
+/// the plane's coordinates.
 class PlaneProblem {
   public:
     PlaneProblem(Workspace& scratch, std::span<glm::vec3> joints, State& state, const glm::vec3& target,

@@ -31,8 +31,8 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
     problem.joints[joint] = to;
 }
 
-/// Applies the minimal rotation from the unit vector `from` to the direction of `bone`, of length `size`, to
-/// `q`.
+/// Applies to `q` the minimal rotation from the unit vector `from` to the direction of `bone`, of length
+/// `size`.
 glm::quat transported(const glm::quat& q, const glm::vec3& from, const glm::vec3& bone, float size) noexcept {
     const float w = size + dot(from, bone);
     const glm::vec3 axis = w < 1e-6f * size ? perpendicular(from) : cross(from, bone);

@@ -5,9 +5,9 @@
 
 namespace tendril::ik::detail {
 
-/// Moves every joint to its length, from the first bone on that is not at its length within the tolerance of
-/// chain.hpp. A joint given at the position of its predecessor goes straight on, or along its rest direction
-/// if there is no bone before.
+/// Moves joints to their lengths, from the first bone on that is not at its length within the tolerance of
+/// chain.hpp. A joint given at its predecessor's position continues straight on, or along its rest direction
+/// if there is no previous bone.
 template <class Watch>
 void enforce_lengths(Problem& problem, Watch watch) noexcept;
 

@@ -1,5 +1,5 @@
-// Which targets a chain can reach, and the closed-form poses for those out of reach. Shared by chains, chains
-// within limits and trees. Not installed.
+// The range of targets that a chain can reach, and the closed-form poses for targets out of reach. Shared by
+// chains, chains within limits and trees. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void straighten(std::span<const glm::vec3> joints, const glm::vec3& target, Leng
 
 /// Folded: the longest bone points at the target and the others back. If the target is so close to the root
 /// that every line gives the same residual, to a part in 500 of `nearest`, its direction is ignored:
-/// following it would turn the chain about for nothing. Instead the line is the one on which the folded chain
+/// following it would turn the chain about for no gain. Instead the line is the one on which the folded chain
 /// lies nearest to its current pose: with c the position of each joint on it, the direction of the sum of c *
 /// (joint - root).
 template <class Length, class Place>

@@ -72,7 +72,7 @@ Result check_all_but_limits(std::size_t bones, Method method, std::span<const gl
     return is_valid(state, bones) ? Result() : ik::check(state, bones);
 }
 
-/// Whether a solve could move a joint further out than a Chain accepts.
+/// True if a solve could move a joint further out than a Chain accepts.
 bool may_leave_range(const Chain& chain, float reach) noexcept {
     const glm::vec3& root = chain.segments()[0].position;
     return std::max({std::abs(root.x), std::abs(root.y), std::abs(root.z)}) + 2.0f * reach > max_magnitude;

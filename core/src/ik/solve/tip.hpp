@@ -10,7 +10,7 @@
 namespace tendril::ik::detail {
 
 /// Requires options.tip_orientation and no limits. Reports the status of the chain without its last bone, and
-/// the tip's residual. A two-bone solver takes three bones here, or two, which leave one to solve.
+/// the tip's residual. Here a two-bone solver takes three bones, or two, of which one is left to solve.
 template <class Watch>
 Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) noexcept;
 

@@ -18,7 +18,7 @@ struct Options;
 
 namespace tendril::ik::detail {
 
-/// Report of a refused solve. Its residual is infinite: no comparison takes that for success.
+/// Report of a refused solve. Its infinite residual never compares as success.
 template <class Report>
 Report refusal(const Result& why) noexcept {
     Report report;
@@ -29,7 +29,7 @@ Report refusal(const Result& why) noexcept {
     return report;
 }
 
-/// Whether every coordinate is finite and at most max_magnitude.
+/// True if every coordinate is finite and at most max_magnitude.
 bool are_points(std::span<const glm::vec3> points) noexcept;
 
 /// False for NaN.
@@ -57,10 +57,10 @@ inline bool is_unit(const glm::quat& q) noexcept {
 Result check(const Options& options, std::size_t bones) noexcept;
 Result check(const Plane& plane, std::size_t bones) noexcept;
 
-/// Whether the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
+/// True if the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
 bool is_valid(const State& state, std::size_t bones) noexcept;
 
-/// Whether the method exists and takes this many bones.
+/// True if the method exists and takes this many bones.
 bool takes(Method method, std::size_t bones) noexcept;
 
 }  // namespace tendril::ik::detail

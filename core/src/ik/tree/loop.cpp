@@ -88,7 +88,7 @@ class Iteration {
     double tolerance_;
     bool plain_;
     Fit now_, best_;
-    bool saved_ = false;  ///< whether scratch.best is valid
+    bool saved_ = false;  ///< scratch.best is valid
     double damping_ = tune::tree::first_damping;
 };
 

@@ -3,8 +3,8 @@
 // Finds the moves d of all nodes that minimise
 //     sum over effectors of weight * |place + d - goal|^2  +  damping * sum over all of |d|^2
 // such that no bone changes its length to first order: along . (d - d of the parent) = 0, with `along` the
-// bone's direction. A whole branch's contribution to that sum depends on the parent's move only through s =
-// along . (d of the parent), and is a parabola in it: stiffness/2 * s^2 - wish * s. So one pass from the
+// bone's direction. The contribution of a whole branch to that sum depends on the parent's move only through
+// s = along . (d of the parent), and is a parabola in it: stiffness/2 * s^2 - wish * s. So one pass from the
 // leaves inward collects the parabolas, and one from the root outward computes the moves.
 
 #include "ik/tree/workspace.hpp"
@@ -54,7 +54,7 @@ void newton_step(TreeScratch& scratch, std::span<const glm::vec3> from, double d
         // From here on `free` is the move itself.
         const double tension = r.stiffness * dot(r.along, scratch.responses[node.parent].free) - r.pull;
         r.free = plus(r.free, times(r.per_tension, tension));
-        // In double: with little damping a move may be vast.
+        // In double: with little damping a move may be very large.
         const glm::vec3& parent = scratch.trial[node.parent];
         const glm::dvec3 way = plus(between(parent, from[k]), r.free);
         scratch.trial[k] = moved(parent, unit_or_x(way), static_cast<double>(node.length));

@@ -1,4 +1,4 @@
-// Before the first iteration: which joints take part, reachable goals, and the weights of means.
+// Before the first iteration: the joints that take part, reachable goals, and the weights of means.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace tune::tree;
 
-/// Whether the bone is at its length up to rounding and can be kept. Same tolerance as a chain, except that
+/// True if the bone is at its length up to rounding and can be kept. Same tolerance as a chain, except that
 /// it is relative for bones under a metre.
 bool has_length(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double wanted = static_cast<double>(length);
@@ -69,7 +69,7 @@ glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexc
     glm::dvec3 way = between(root, effector.target);
     const double distance = length(way), wanted = scratch.path[effector.joint].clamped(distance);
     if (wanted == distance) return wide(effector.target);
-    // A target at the root has no direction: uses the joint's.
+    // A target at the root has no direction: use the joint's.
     if (distance < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
     const glm::dvec3 along = direction_of(way, 1e-6 * wanted).value_or(glm::dvec3(1.0, 0.0, 0.0));
     return plus(wide(root), times(along, wanted));
@@ -82,7 +82,7 @@ void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) no
         if (scratch.path[effector.joint].furthest == 0.0) continue;  // it cannot move
         max_weight = std::max(max_weight, static_cast<double>(effector.weight));
     }
-    // By joint, not by list order: sums at one node must not depend on the list.
+    // By joint, not in list order: sums at one node must not depend on the list.
     for (std::size_t k = 1; k < scratch.joints.size(); ++k) {
         if (scratch.effector_at[k] == no_joint || scratch.node_of[k] == 0) continue;
         const Effector& effector = effectors[scratch.effector_at[k]];

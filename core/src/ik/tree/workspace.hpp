@@ -34,7 +34,7 @@ struct Node {
     std::size_t branches = 0;      ///< number of child nodes
 };
 
-/// Data that the Newton step stores at a node on its inward pass for the outward pass.
+/// Results that the Newton step stores at a node on its inward pass for the outward pass.
 struct Response {
     Symmetric3 branches;           ///< stiffness of its branches
     glm::dvec3 force;              ///< force from its goal and branches
@@ -65,7 +65,7 @@ struct TreeScratch {
     std::vector<Response> responses;
 };
 
-/// How well the positions of the nodes match the goals.
+/// Distance of the nodes from the goals.
 struct Fit {
     double cost = 0.0;   ///< sum of weight times squared distance
     double worst = 0.0;  ///< maximum distance, metres
@@ -95,7 +95,7 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
 double worst_residual(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
 /// A single effector whose target is at or beyond the rim of its reach has only one solution: straight
-/// towards the target, or folded against the longest bone. Applies it; false if this is not the case.
+/// towards the target, or folded against the longest bone. Applies it; false otherwise.
 bool solve_out_of_reach(TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
 /// Updates every bone's rotation by the minimal rotation from its initial direction to its current one.
