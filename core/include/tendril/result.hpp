@@ -53,7 +53,6 @@ class [[nodiscard]] Result {
     const char* message() const noexcept { return message_; }
     /// The message without the operation: `index 9 is out of range, the chain has 4 segments`.
     const char* reason() const noexcept;
-    /// The same code and message.
     bool operator==(const Result& other) const noexcept;
 
   private:

@@ -21,8 +21,7 @@
 //
 // Threads. One object, one thread at a time; different objects never share anything. Feet, Hands, LookAt and rig::Rig
 // are immutable: many threads may share one. Body, BentChain, SpringChain, Batch and all solvers have scratch memory,
-// even where a call is const: one per thread. Large calls spread their work over threads, yours or their own
-// (tasks.hpp).
+// even where a call is const: one per thread. Large calls spread over threads, yours or their own (tasks.hpp).
 //
 // Errors. Nothing throws, and everything builds without exceptions and RTTI. A call that may be refused returns a
 // Result, or an Expected with the value; the message names the operation, the argument and its value. A solve returns a

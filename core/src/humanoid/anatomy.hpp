@@ -8,7 +8,6 @@
 
 namespace tendril::humanoid::detail {
 
-/// The bone that is mapped to the node.
 inline std::optional<Bone> bone_of(const BoneMap& map, std::int32_t node) noexcept {
     for (std::size_t i = 0; i < bone_count; ++i)
         if (map.bones[i].node == node) return static_cast<Bone>(i);

@@ -62,8 +62,7 @@ struct BentChain::Plan {
                     const ik::CurveOptions& options, double factor) noexcept;
 };
 
-/// False if the chain has no length. A bone without length takes the direction of the previous one, or else
-/// of the next.
+/// False if the chain has no length. A bone without length points like the previous one, or else the next.
 bool BentChain::Plan::load_rest(const Skeleton& skeleton) {
     const std::vector<rig::Transform> pose = rest_pose(skeleton);
     if (!place_nodes(seen_from_points(parent(pose)), pose, placed)) return false;

@@ -136,8 +136,7 @@ double BodySolve::measure_balance() noexcept {
     return 0.5 * balance_weight * outside_ * outside_;
 }
 
-/// Finds mass_arms_, from the mass that each link's turn moves. A limb without a goal is not used as a
-/// counterweight.
+/// Finds mass_arms_, from the mass that each link's turn moves. Limbs without a goal are no counterweight.
 void BodySolve::find_mass_arms() noexcept {
     std::array<double, bone_count> mass{};
     std::array<glm::dvec3, bone_count> moment{};

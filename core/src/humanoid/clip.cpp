@@ -16,7 +16,6 @@ namespace {
 using tendril::detail::Argument;
 using tendril::detail::refused;
 
-/// The components of a value.
 std::span<const double> numbers(const glm::dvec3& value) noexcept {
     return {&value.x, 3};
 }

@@ -11,8 +11,7 @@ inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return arctangent(length(cross(a, b)), dot(a, b));
 }
 
-/// Turns one unit vector towards another by at most `most` radians; about an arbitrary axis if they are
-/// opposite.
+/// Turns a unit vector towards another by at most `most` radians; about any axis if they are opposite.
 inline glm::dvec3 turned_toward(const glm::dvec3& from, const glm::dvec3& to, double most) noexcept {
     const double angle = angle_between(from, to);
     if (angle <= most) return to;

@@ -73,9 +73,8 @@ struct SwingSole {
 };
 
 struct Clearance {
-    /// Distance by which the sole must rise now so that each of its points is above the ground when it gets
-    /// there, rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high
-    /// enough.
+    /// Distance that the sole must rise now to have each point above the ground when it gets there, rising at
+    /// a steady speed: the upper envelope of the ground ahead. Negative if it is high enough.
     double raise = -1e300;
     /// The fraction of `moved` after which the foot can still rise in time for the next edge.
     double part = 1.0;

@@ -73,8 +73,7 @@ void Ground::Mesh::sort() {
     const double wide = std::max(x_end - x, 1e-3), deep = std::max(z_end - z, 1e-3);
     cell = std::max(std::sqrt(wide * deep / static_cast<double>(triangles.size())),
                     std::max(wide, deep) / static_cast<double>(max_side));
-    // Large triangles cover many squares each. Use fewer squares, so that the lists stay proportional to the
-    // mesh.
+    // Large triangles cover many squares: use fewer, so that the lists stay proportional to the mesh.
     const std::size_t max_entries = 12 * triangles.size() + 64;
     for (;; cell *= 2.0) {
         columns = static_cast<std::size_t>(wide / cell) + 1;

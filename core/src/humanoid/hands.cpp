@@ -48,8 +48,7 @@ glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbP
     rig::Transform& local = pose[arm.limb.node(static_cast<std::size_t>(arm.shoulder))];
     const Placement shoulder = above * placement(local);
 
-    // In the triangle of shoulder, upper arm's joint and target: the angle at the shoulder with which the arm
-    // just reaches.
+    // In the triangle of shoulder, arm's root and target: the angle at the shoulder at which the arm reaches.
     const glm::dvec3 bone = minus(at.upper.position, shoulder.position),
                      way = minus(target, shoulder.position);
     const double c = length(bone), d = length(way);
@@ -64,8 +63,7 @@ glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbP
     return by;
 }
 
-/// Maximum straightness of the arm. An arm that is straighter in the clip bends to the limit as the weight
-/// grows.
+/// Maximum straightness of the arm. An arm that is straighter in the clip bends as the weight grows.
 double straightest_of(const LimbPlacement& at, double weight) noexcept {
     const double full = at.upper_length() + at.lower_length();
     const double clip = length(minus(at.end.position, at.upper.position)) / std::max(full, 1e-9);

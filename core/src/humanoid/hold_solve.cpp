@@ -23,8 +23,7 @@ constexpr double joint_damping = 0.02;
 constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
 /// A grip's compliance in one step, before its force has grown. If larger, grips take more steps to close.
 constexpr double grip_compliance = 0.01;
-/// Maximum force of a grip at the start of a step: this, plus as much per metre that the object has given
-/// way.
+/// Maximum force of a grip at the start of a step, and its increase per metre that the object has given way.
 constexpr double max_grip_force = 2.0;
 /// Weight of the grips' second derivatives along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
@@ -37,8 +36,7 @@ constexpr int max_hold_changes = 6;  ///< maximum changes of the set of limits, 
 constexpr double max_hold_step = 0.4;
 /// A step smaller than this ends the solve if the grips are as closed as possible.
 constexpr double hold_tolerance = 1e-7;
-/// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus a
-/// constant in metres.
+/// Maximum move of an elbow or hand: metres per metre of the requested grips and shoulders, plus metres.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
 /// A joint counts as at its limit if it cannot turn although a force over the first constant would turn it by
 /// more than the second, radians.

@@ -38,9 +38,8 @@ struct NameReading {
     bool is_plain = false;  ///< exactly "hips", not "pelvis" or "hip"
 };
 
-/// Reads a name, ignoring prefixes of programs and characters, case and separators. Part::None for nodes that
-/// are not bones of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the
-/// word `ignored`.
+/// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are not bones
+/// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the word `ignored`.
 NameReading read_name(std::string_view name, std::string_view ignored = {});
 /// The first word of more than half of the names, a character's or an asset's; "" if there is none.
 std::string common_word(const Skeleton& skeleton);

@@ -145,7 +145,6 @@ class Shape {
         if (before != bones[0] && *upper > 0) set(before, path[*upper - 1]);
         if (after && *upper + 3 < path.size()) set(*after, path[*upper + 3]);
     }
-    /// The two limbs, left first.
     std::pair<std::size_t, std::size_t> left_first(const Pair& pair, const glm::dvec3& left) const {
         const std::size_t a = end_[pair.a], b = end_[pair.b];
         const bool a_is_left = dot(minus(at(a), at(b)), left) > 0.0;

@@ -68,8 +68,7 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
             .has_velocity = true};
 }
 
-/// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may have moved it
-/// anywhere.
+/// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may set it anywhere.
 glm::dvec3 clamped_offset(const SpringMass& mass, double reach) noexcept {
     const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
@@ -109,8 +108,7 @@ glm::dvec3 push_out(std::span<const PlacedCapsule> colliders, double margin, con
     }
     return points;
 }
-/// Remaining velocity of a tip after a collider turned its bone: without the parts along the bone and back
-/// inside.
+/// A tip's velocity after a collider turned its bone: without the parts along the bone and back inside.
 glm::dvec3 deflected(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
     const glm::dvec3 left = across(velocity, free);
     const auto out = direction_of(across(minus(free, inside), free), 0.0);

@@ -1,5 +1,5 @@
-// Every constant of core/ik that was chosen rather than derived, with its measurements and the effect of
-// other values. Not installed.
+// Every constant of core/ik that was chosen rather than derived: its measurements, and the effect of other
+// values. Not installed.
 //
 // Constants that only allow for float rounding (1e-6 of the reach and the like) stay where they are used; so
 // do the step counts of closed forms (Newton's iterations on an arc or an ellipse).

@@ -9,9 +9,8 @@ namespace tendril::detail {
 
 inline constexpr std::uint32_t max_threads = 256;
 
-/// Calls `task(context, i)` for each i below `count` and returns when all are done. `tasks.run`, if set,
-/// decides which threads run them. Otherwise at most `threads` (1 to max_threads) run, including the calling
-/// thread.
+/// Calls `task(context, i)` for each i below `count` and returns when all are done. If `tasks.run` is set, it
+/// chooses the threads. Otherwise at most `threads` (1 to max_threads) run, including the calling thread.
 void run_tasks(const Tasks& tasks, std::uint32_t threads, TaskFunction task, void* context,
                std::uint32_t count) noexcept;
 

@@ -87,7 +87,6 @@ class Chain {
     /// Maximum distance from head to tail, in metres: the sum of all lengths but the first. O(n).
     float reach() const noexcept;
     glm::vec3 default_direction() const noexcept { return default_direction_; }
-    /// Same segments, same default direction.
     bool operator==(const Chain&) const = default;
 
     // ---- Editing

@@ -17,8 +17,7 @@
 // long and 0.055 wide, thigh and shin together are 0.491). A sole pitched by more than 60 degrees narrows,
 // down to a point when vertical, because then it has no direction seen from above.
 //
-// This judges a pose, not a motion: a walker or runner is out of balance for half of each step and does not
-// fall.
+// It judges a pose, not a motion: walkers and runners are out of balance for half of each step.
 //
 // Cost: half a microsecond for both.
 #pragma once

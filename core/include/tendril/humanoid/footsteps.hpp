@@ -13,8 +13,7 @@
 // steps under it, at most 0.9 of the leg's length from the other foot, and never across; the other one
 // follows if one step is not enough. Without targets, the feet step back to where the clip has them.
 //
-// Moving a hand at 1 m/s to a target within 1.9 m usually takes at most two steps, and almost never more than
-// four.
+// Moving a hand at 1 m/s to a target within 1.9 m takes two steps or fewer in most cases, four in nearly all.
 //
 // Needs a clip that stands: while the clip lifts a foot, no step begins.
 //

@@ -36,8 +36,7 @@ struct Node {
     std::string name{};        ///< unique, not empty
     std::int32_t parent = -1;  ///< index into the list; -1: a root
     rig::Transform rest{};     ///< local to the parent; metres
-    /// Set by attached(): the node's parent differs from the one in its file, and the file's clips stay
-    /// unchanged.
+    /// Set by attached(): the node's parent is not the one in its file, whose clips stay unchanged.
     std::optional<KeySpace> keys{};
     /// The parent to which the keys of clips are local.
     std::int32_t key_parent() const noexcept { return keys ? keys->parent : parent; }
@@ -49,7 +48,6 @@ class Skeleton {
   public:
     static constexpr std::size_t max_nodes = 4096;
 
-    /// No nodes.
     Skeleton() = default;
     /// Refuses more than max_nodes, an empty or duplicate name, a parent out of range, cycles, rest
     /// transforms that rig::checked() refuses, and key spaces above or below one another.

@@ -59,7 +59,6 @@ class TwistNodes {
 
     static TwistNodes find(const Skeleton& skeleton, const BoneMap& map);
     bool empty() const noexcept { return nodes_.empty(); }
-    /// The twist nodes along the bone.
     std::vector<std::size_t> along(Bone bone) const;
 
     /// `pose` holds the local transforms of all nodes.

@@ -231,8 +231,7 @@ class IncidentFinder {
         std::array<double, max_lag + 1> left() const noexcept;
     };
     std::vector<glm::vec3> targets_, followers_;  ///< targets and tips relative to the root, newest last
-    /// A run of frames in which the tip may be late, and by lag the sum of its squared distances to earlier
-    /// targets.
+    /// A run of frames in which the tip may be late; by lag, its summed squared distances to earlier targets.
     struct Late {
         std::uint64_t first = 0, last = 0, frames = 0;
         std::array<double, max_lag + 1> squares{};

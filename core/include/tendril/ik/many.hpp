@@ -108,9 +108,7 @@ class Batch {
     Batch(Batch&&) noexcept;
     Batch& operator=(Batch&&) noexcept;
 
-    /// Number of chains.
     std::size_t size() const noexcept;
-    /// Bones per chain.
     std::size_t bones() const noexcept;
 
     // ---- Units are metres. OutOfRange for a bad chain or joint; InvalidArgument for a number that chain.hpp

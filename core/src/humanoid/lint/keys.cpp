@@ -65,7 +65,6 @@ void check_scale_keys(Check& check, const Channel& channel) {
     }
 }
 
-/// Reports a figure of implausible height.
 void check_height(Check& check) {
     if (!check.map.is_usable() || check.report.frames == 0) return;
     const double height = check.height;

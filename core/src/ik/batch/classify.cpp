@@ -44,8 +44,7 @@ HWY_INLINE bool certainly_fits(const Block& block, std::size_t i) {
     return hn::AllTrue(Floats(), fits);
 }
 
-/// Computes a bone's deviation from its length, and the deviation that enforce_lengths (prepare.cpp)
-/// tolerates.
+/// Computes a bone's deviation from its length, and how much enforce_lengths (prepare.cpp) tolerates.
 HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lanes& off, Lanes& allowed) {
     const float *const from = block.joint(bone) + i, *const to = block.joint(bone + 1) + i;
     const Lanes size = load(block.length(bone) + i);

@@ -66,7 +66,6 @@ struct HalfAngles {
     Lanes cosine, sine;
 };
 
-/// Clamps to the range.
 HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, BoundState& bound_state) {
     if (range.whole) return half;
     const Lanes sine = hn::Min(hn::Max(half.sine, all(range.min)), all(range.max));

@@ -23,8 +23,7 @@ namespace HWY_NAMESPACE {
 constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_move = Row::Nearest,
               row_of_slow = Row::Slow;
 
-/// Initialises the state of a register's chains. Chains that have arrived without violating a limit are
-/// already done.
+/// Initialises the state of a register's chains. Those that have arrived within their limits are done.
 HWY_INLINE void begin(const Limb& limb, float* rotations) {
     const Mask requested = equals(limb.row(Row::Class), Class::Reachable);
     const Mask violated = load_clamped_pose(limb, rotations);

@@ -44,7 +44,6 @@ struct Batch::Parts {
     static void fill(const Block& block) noexcept;
 
     std::size_t block_count() const noexcept { return (chains + block_lanes - 1) / block_lanes; }
-    /// The block of a chain.
     Block block(std::size_t chain) const noexcept {
         return {blocks.get() + chain / block_lanes * Block::chain_floats(bones), nullptr, bones};
     }

@@ -99,7 +99,6 @@ HWY_INLINE Lanes squared_distance(const float* from, const float* to) {
     const Points apart = minus(load_points(to), load_points(from));
     return dot(apart, apart);
 }
-/// Distance from tip to target.
 HWY_INLINE Lanes residual_of(const Block& block, std::size_t i) {
     return hn::Sqrt(squared_distance(block.joint(block.bones()) + i, block.target() + i));
 }
@@ -143,7 +142,6 @@ HWY_INLINE void step(const StepRows& rows, const float* activity, std::size_t i)
     store_points(to, rows.to + i);
 }
 
-/// Copies the points of some lanes.
 HWY_INLINE void copy_points(Mask lanes, const float* from, float* to) {
     for (std::size_t k = 0; k < 3; ++k) {
         hn::BlendedStore(load(from + k * block_lanes), lanes, Floats(), to + k * block_lanes);

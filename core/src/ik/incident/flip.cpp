@@ -12,8 +12,7 @@ namespace tendril::ik {
 namespace {
 
 constexpr float near_root = 0.02f;  ///< fraction of the reach
-/// Bend as a fraction of the reach: two equal bones at 99.5 % of their reach, which turn by 11 degrees to
-/// change sides.
+/// Bend, share of the reach: two equal bones at 99.5 % of their reach turn by 11 degrees to change sides.
 constexpr float nearly_straight = 0.05f;
 constexpr float close_to_pole = 0.17f;  ///< radians, ten degrees
 constexpr float on_axis = 1e-4f;  ///< radians: float coordinates of 500 times the reach are off by as much

@@ -205,7 +205,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
         const float allowed = std::max(length_share * lengths_[i], rounded_lengths * options_.resolution);
         const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
-        // Both bones at a joint change at once. If their outer ends keep their distance, only that joint
+        // Both bones at a joint change at once. If their outer ends keep their distance, only the joint
         // moved.
         const bool opens = active && !length_[i].open;
         if (opens && opened && !recent_.empty() && found_.size() < max_incidents) {

@@ -41,7 +41,6 @@ static inline glm::quat parent_of(const LimitedScratch& scratch, const std::vect
     return is_from_base(scratch, bone) ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
 }
 
-/// Rotation relative to the parent bone.
 static inline glm::quat local_rotation(const LimitedScratch& scratch, const std::vector<glm::quat>& rotations,
                                        std::size_t bone) noexcept {
     return compose(conjugate(parent_of(scratch, rotations, bone)), rotations[bone]);

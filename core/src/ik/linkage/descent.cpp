@@ -192,8 +192,7 @@ bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
     return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
 }
 
-/// Takes one damped step and projects to the closures. If that gains nothing, restores the pose and returns
-/// false.
+/// Takes one damped step and projects to the closures. If it gains nothing, undoes it and returns false.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);

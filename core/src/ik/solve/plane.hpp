@@ -26,8 +26,7 @@ class PlaneFrame {
     glm::vec3 world(const glm::vec3& point) const noexcept;
     glm::vec3 local_vector(const glm::vec3& vector) const noexcept;
     glm::vec3 world_vector(const glm::vec3& vector) const noexcept;
-    /// World position of a joint with these coordinates. Returns `was`, its old position, bit for bit if it
-    /// has not moved.
+    /// World position of a joint with these coordinates; exactly `was`, the old one, if it has not moved.
     glm::vec3 returned(const glm::vec3& local, const glm::vec3& was, float reach) const noexcept;
     /// Signed distance from the plane, metres.
     double off(const glm::vec3& point) const noexcept;

@@ -63,7 +63,6 @@ class Iteration {
         damping_ = tune::tree::first_damping;
     }
 
-    /// Restores the best pose if the current one is worse.
     void restore_best() noexcept {
         if (best_.cost < now_.cost) {
             std::copy_n(scratch_.best.begin(), scratch_.used, scratch_.at.begin());
