@@ -14,7 +14,7 @@ namespace tendril::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// The same for all names of a file but hard links.
+/// One name for a file, however its path is spelled; hard links still differ.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
     // A relative path without any existing part would stay as it is spelled.

@@ -1,6 +1,6 @@
-// A lab's last ten seconds, to go back in time: its part at each tick that was simulated or changed by hand,
-// or at every second, fourth, ... if that grows too large; and the incidents in them. Not part of the
-// document and not saved.
+// A lab's last ten seconds, for going back in time: its part at each tick that was simulated or changed by
+// hand (every second, fourth, ... tick if that grows too large), and the incidents among them. Not part of
+// the document and not saved.
 #pragma once
 
 #include <cstddef>

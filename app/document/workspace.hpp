@@ -76,9 +76,9 @@ struct RepeatedDrag {
         glm::vec3 at{0.0f};
     };
     std::vector<Point> path{};               ///< the step's drags since another command changed the scene
-    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
+    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident caused by a drag
     SharedJson incident{};                   ///< the incident to cure, as in the state
-    glm::vec3 place{0.0f}, direction{0.0f};  ///< the drag's, when it caused the incident
+    glm::vec3 place{0.0f}, direction{0.0f};  ///< of the drag, when it caused the incident
     bool cured = false;
 };
 
@@ -166,11 +166,12 @@ struct UiState {
     std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
     bool incident_chosen = false;               ///< by the user: the inspector scrolls to it
     std::map<std::string, CardProgress> cards;  ///< things to try, by lab
-    std::string hidden_gizmo;                   ///< its handle; by Esc, until one is pressed or selected
+    std::string hidden_gizmo;                   ///< the gizmo that Esc hid, until a handle is pressed or
+                                                ///< selected
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 
-    /// Whether something that Esc closes covers the scene.
+    /// Whether something that Esc closes is open over the scene.
     bool covered() const {
         return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None ||
                !file_question.ways.empty();
