@@ -18,9 +18,9 @@ enum class RowFormat { Table, Csv, Json };
 
 struct SolveOptions {
     std::string cases;                          ///< path: a list of cases, one linkage, or a scene with one
-    std::vector<ik::Method> methods;            ///< each case is solved by each of them
-    std::optional<int> max_iterations;          ///< 1 to 1 000 000; if left out 100, or 1000 for a linkage
-    std::optional<float> tolerance;             ///< metres; 1e-3 of the reach if left out
+    std::vector<ik::Method> methods;            ///< each solves every case
+    std::optional<int> max_iterations;          ///< 1 to 1 000 000; default 100, or 1000 for a linkage
+    std::optional<float> tolerance;             ///< metres; default 1e-3 of the reach
     std::vector<std::string> drivers, targets;  ///< for linkages, as in cases.hpp
     RowFormat format = RowFormat::Table;
 };
@@ -42,7 +42,7 @@ extern const char* const solve_help;
 /// lab has no code, or the output cannot be written.
 void print_code(const std::string& scene);
 
-// `tendril trace`: finds the faults in a chain's motion that an engine recorded.
+// `tendril trace`: finds the faults in a chain's motion recorded by an engine.
 
 struct TraceOptions {
     std::string file;  ///< path; "-" for standard input
@@ -98,7 +98,7 @@ struct BakeOptions {
     std::string out;              ///< path; empty: FILE_baked beside the file
     bool force = false;           ///< replaces glTF, GLB and BVH files that exist
 };
-/// The names of the grounds.
+/// Names of the grounds.
 std::vector<std::string> bake_grounds();
 /// Writes the clip, reads it back and prints the difference. Throws std::runtime_error if the file cannot be
 /// read, has no such clip, lacks the legs that a ground needs, or cannot be written.
