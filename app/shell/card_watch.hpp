@@ -1,4 +1,4 @@
-// The card of things to try: detects when its steps are done, and draws it.
+// The card of things to try: detects completed steps, and draws the card.
 #pragma once
 
 #include <functional>

@@ -102,7 +102,7 @@ bool contains(const std::vector<std::string>& list, const std::string& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-/// For the last element of a list: values that it does not contain yet.
+/// For the last element of a list: values that the list does not contain yet.
 std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue& value, const Argument& list,
                                         const std::string& line, const Workspace& workspace) {
     const Argument* of = find_argument(*typed.command, list.list_of);

@@ -19,7 +19,7 @@ class Input {
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
     bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
-    /// Whether the key is held and was not pressed as part of a chord with Ctrl or Alt.
+    /// Whether the key is held and was not pressed in a chord with Ctrl or Alt.
     bool held_alone(Key key) const { return held(key) && !in_chord_[static_cast<std::size_t>(key)]; }
     bool ctrl() const { return held(Key::Ctrl); }
     bool shift() const { return held(Key::Shift); }

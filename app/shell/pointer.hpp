@@ -1,5 +1,5 @@
-// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It only
-// emits commands.
+// The mouse in the 3D view: hovers, clicks, drags handles, selects by a box, turns and shifts the camera. It
+// only emits commands.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// Tooltips, placed so that none hides the item under the mouse or the next ones; and text cut to a width,
-// which a tooltip shows in full.
+// Tooltips, placed so that they hide neither the item under the mouse nor the next ones; and text cut to a
+// width, which a tooltip shows in full.
 //
-// A panel's or a bar's tooltip is beside the panel, over the middle of the window; a sheet's or a list's is
-// beside the sheet. In the middle of the window it is below or above its item, or in the corner of a plot.
+// The tooltip of a panel or bar is beside the panel, over the middle of the window; that of a sheet or list
+// is beside the sheet. In the middle of the window it is below or above its item, or in the corner of a plot.
 #pragma once
 
 #include <string>
