@@ -21,7 +21,7 @@ struct ExportReport {
     double skating_before = 0.0;  ///< maximum sliding of a standing foot, metres
     double skating_after = 0.0;
     double rate = 60.0;                       ///< frames per second
-    double unit = 1.0;                        ///< metres, of a glTF file that keeps its own unit
+    double unit = 1.0;                        ///< metres per unit of a glTF file that keeps its own unit
     std::size_t findings = 0;                 ///< the lint's findings in the written clip
     bool on_ground = false;                   ///< whether the lint used a slope, stairs, hills or a mesh
     std::vector<std::string> new_findings{};  ///< findings that the original lacks

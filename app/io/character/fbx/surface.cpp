@@ -29,7 +29,7 @@ class LayerElement {
         }
     }
 
-    /// The first number of a corner's row; null: it has none.
+    /// The first number of a corner's row; null if it has none.
     const double* at(std::size_t corner, std::size_t point, std::size_t polygon) const {
         std::size_t row = mapping_ == "ByPolygonVertex"                       ? corner
                           : mapping_ == "ByVertice" || mapping_ == "ByVertex" ? point
