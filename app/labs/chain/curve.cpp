@@ -50,7 +50,7 @@ const Chain& own_chain(const ChainPart& part) {
 
 namespace {
 
-/// Five of the chain's joints, evenly spread; all joints of a shorter chain.
+/// Five of the chain's joints, evenly spread; all joints if it has fewer.
 std::vector<glm::vec3> points_through(const Chain& chain) {
     const std::size_t bones = chain.size() - 1, spans = std::min<std::size_t>(bones, 4);
     std::vector<glm::vec3> points;
@@ -58,7 +58,7 @@ std::vector<glm::vec3> points_through(const Chain& chain) {
     return points;
 }
 
-/// Whether only control points changed, so that a joint that moves further than the curve has jumped.
+/// Whether only control points changed. If so, a joint that moves further than the curve has jumped.
 bool only_points_moved(const ChainPart& before, const ChainPart& after) {
     const ik::CurveOptions &was = before.curve.options, &is = after.curve.options;
     return before.mode == ChainMode::Curve && before.along.given == after.along.given &&
@@ -75,7 +75,8 @@ class CurveDrawing {
                            2, list_);
         pen.line();
         const Selection& selection = part_.along.selection;
-        for (std::size_t i = 0; i < curve_.points.size(); ++i)  // over the joints: the first is on the root
+        for (std::size_t i = 0; i < curve_.points.size(); ++i)  // drawn over the joints: the first is on the
+                                                                // root
             pen.control(i, control_pick(i), selection.has(i), selection.active() == i);
         if (curve_frames().chosen(view_.workspace.settings) == 1) frames();
     }
