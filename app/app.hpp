@@ -94,7 +94,7 @@ class App final : public Stage {
     void run_emitted(Emit& emit, From from);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
     void note_refusal(const std::string& why);
-    /// An opening as it was when it ended.
+    /// An opening in the state where it ended.
     struct Opening {
         Document document, saved;
         Rewind rewind;

@@ -55,10 +55,10 @@ struct Handle {
 /// The handles that one drag of the gizmo moves when several things are selected.
 struct Together {
     std::vector<Handle> handles;
-    std::string staying;  ///< which selected things do not move, and why; empty if none
+    std::string staying;  ///< selected things that do not move, and why; empty if none
 };
 
-/// A lab's answer to text from the clipboard.
+/// How a lab takes text from the clipboard.
 struct TakenText {
     std::optional<CommandCall> command;
     std::string what;  ///< with a command: the contents, "points"; without: the reason for refusing
@@ -76,7 +76,7 @@ Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 /// Frames `bounds` in the open lab's view, unless they are in view and large enough to be seen.
 void frame_unless_seen(Workspace& workspace, const Bounds& bounds);
 
-/// A colour in the scene and its meaning.
+/// A colour in the scene, and its meaning.
 struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
@@ -118,8 +118,8 @@ class Lab {
     /// The first thing to try: "Drag the orange ball." Empty: none.
     virtual std::string invitation(const Workspace&) const { return {}; }
 
-    /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
-    /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
+    /// Commands that turn the blank part into the scene of a new window, preferably one that moves by itself.
+    /// Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
     /// Commands that stop motions of the opening that would disturb the user. Run once, before the first
     /// change in the lab or the first press on something in it; not an undo step.
@@ -142,7 +142,8 @@ class Lab {
     /// Its incidents in a change or a tick: `before` and `after` are parts of this lab; the workspace gives
     /// access to its runtime. The caller sets the ticks.
     std::vector<Incident> review(const Workspace& workspace, const Part& before, const Part& after) const;
-    /// Whether incidents in `before` still concern `after`: it has the same joints. If not, they are dropped.
+    /// Whether incidents in `before` still apply to `after`: it has the same joints. If not, they are
+    /// dropped.
     bool same_joints(const Part& before, const Part& after) const;
     /// Whether a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
@@ -207,7 +208,7 @@ class Lab {
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// The effect of the mouse on that pick, for the status line.
+    /// What the mouse does at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
     /// Whether pictures and videos have labels and legend if the request does not specify it.
     virtual bool labels_pictures(const Workspace&) const { return false; }
@@ -239,9 +240,9 @@ class Lab {
     // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// With those of its past.
+    /// Including those of its past.
     std::vector<LabSetting> all_settings() const;
-    /// Mouse gestures in this lab, in addition to those of every lab.
+    /// Mouse gestures of this lab, beyond those of every lab.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
     // output
