@@ -8,9 +8,9 @@
 
 namespace tendril::app {
 
-/// Starts a new take at the current time, because the future no longer follows from the take so far.
+/// Starts a new take at the current time, because later states no longer follow from the take.
 void begin_take(RigPart& part);
-/// Ends a recording whose take `part` has left since `before`: keeps the clip, and says so.
+/// Ends a recording if `part` has left its take since `before`: keeps the clip, and says so.
 void keep_recording(Workspace& workspace, RigPart& part, const RigPart& before);
 /// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);
@@ -50,7 +50,7 @@ class TakeRunner {
 bool can_walk(rig::ControlKind kind);
 /// The position `ticks` after the start of the take (may be fractional), within the control's space.
 glm::dvec3 walk_point(const Motion& motion, double ticks);
-/// The value of the control there; takes what the path does not determine from `now`.
+/// The control's value there; components that the path does not set come from `now`.
 rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks);
 
 }  // namespace tendril::app
