@@ -71,8 +71,7 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
-/// Leaves nothing to undo or save: the session starts with the file. False if one of its labs could not be
-/// read.
+/// Leaves nothing to undo or save: the session starts here. False if a lab of the file could not be read.
 bool open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {

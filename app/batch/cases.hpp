@@ -31,9 +31,8 @@ namespace tendril::app {
 ///   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
 ///
 /// "linkage" is a preset, with "lengths" that override its own, or a linkage as in a scene file. A driver's
-/// value is a number (degrees or metres), a list of numbers or a range; a target's is a point or a list of
-/// points. A list gives one row per element, each solved from the pose before; all lists of a case are
-/// equally long.
+/// value is a number (degrees or metres), a list of numbers or a range; a target's is a point or a list. A
+/// list gives one row per element, each solved from the pose before; a case's lists are equally long.
 struct LinkageCase {
     LinkagePart part;
     /// Keyed by joint and point names; radians or metres. One value, or one for each row.

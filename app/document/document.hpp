@@ -50,8 +50,7 @@ class Part {
     std::shared_ptr<const Json> unread{};
     std::string unread_why{};  ///< "hero.glb is missing, at ..."
     bool replaces_unread = false;
-    std::shared_ptr<const Json> unread_stand_in{};  ///< the edited lab's JSON, if that could not be read
-                                                    ///< either
+    std::shared_ptr<const Json> unread_stand_in{};  ///< the edited lab's, if also unreadable
 };
 
 class Document {

@@ -166,8 +166,7 @@ struct UiState {
     std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
     bool incident_chosen = false;               ///< by the user: the inspector scrolls to it
     std::map<std::string, CardProgress> cards;  ///< things to try, by lab
-    std::string hidden_gizmo;                   ///< the gizmo that Esc hid, until a handle is pressed or
-                                                ///< selected
+    std::string hidden_gizmo;                   ///< hidden by Esc, until a handle is pressed or selected
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 

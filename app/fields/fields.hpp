@@ -87,8 +87,7 @@ void load_fields(const JsonPlace& place, FieldsIn in);
 /// The same, but a missing field is an error, unless it is in `newer`, which old files lack.
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
-/// What to do if a field is missing. Default: keep its value unless it is required. Refused: fail. Kept: keep
-/// its value.
+/// If a field is missing: keep its value unless it is required; fail; or always keep its value.
 enum class MissingField { Default, Refused, Kept };
 /// A struct whose fields an object in a file may have, together with those of other structs.
 struct KnownFields {

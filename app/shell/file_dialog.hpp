@@ -24,8 +24,7 @@ class PictureOptions {
     float rows() const { return video_ ? 13.0f : 7.0f; }
 
     /// Call when the dialog opens. Keeps earlier choices, except for seconds and labels. `labels`: whether
-    /// the lab wants labels. `loop`: how many of the last ticks make one loop, chosen at first; 0: everything
-    /// remembered.
+    /// the lab wants labels. `loop`: the last ticks that make one loop, chosen at first; 0: everything.
     void start(const Workspace& workspace, bool labels, bool video, int loop);
     void frame();
     /// The chosen format's ending.

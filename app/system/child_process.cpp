@@ -133,8 +133,7 @@ class ChildProcess::Running {
     void close_input() {
         if (input_ != nullptr) ::CloseHandle(std::exchange(input_, nullptr));
     }
-    /// A full pipe blocks the thread that writes to it, so write in another thread; ending the child unblocks
-    /// it.
+    /// A full pipe blocks the writing thread, so another one writes, and ending the child frees it.
     Written write(std::string_view bytes, double seconds) {
         std::atomic<bool> well{true};
         std::atomic<std::size_t> written{0};

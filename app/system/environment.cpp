@@ -25,8 +25,7 @@
 
 #ifdef __MINGW32__
 /// libstdc++ converts narrow paths with mbrtowc, and msvcrt's does not know UTF-8; the linker calls this one
-/// instead. For a character outside the basic plane, the first byte yields one surrogate and the other three
-/// bytes the second.
+/// instead. Beyond the basic plane, the first byte gives one surrogate and the other three the second.
 extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t size,
                                       std::mbstate_t* state) {
     constexpr std::size_t invalid = static_cast<std::size_t>(-1), incomplete = static_cast<std::size_t>(-2);
@@ -122,8 +121,7 @@ std::string home_folder() {
 }
 
 void copy_png(std::string_view png) {
-    const UINT format = ::RegisterClipboardFormatA("PNG");  // the format's name in browsers and office
-                                                            // programs
+    const UINT format = ::RegisterClipboardFormatA("PNG");  // its name in browsers and office programs
     const HGLOBAL memory = ::GlobalAlloc(GMEM_MOVEABLE, png.size());
     if (memory == nullptr || ::OpenClipboard(nullptr) == 0) {
         ::GlobalFree(memory);

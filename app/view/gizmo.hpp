@@ -124,8 +124,7 @@ class GizmoDrag {
 
     GizmoPart part_;
     HandleFrame from_, last_;
-    glm::vec3 axis_, u_, v_;  ///< the part's axis (to move along, to rotate about, or the plane's normal) and
-                              ///< the two others
+    glm::vec3 axis_, u_, v_;  ///< the part's axis (along, about, or the plane's normal) and the other two
     glm::vec3 sight_;         ///< unit, from the eye to the centre
     float distance_ = 1.0f;   ///< from the eye to the centre
     float inverse_distance_ = 0.0f;  ///< inverse distance; 0 if lines of sight are parallel

@@ -284,7 +284,7 @@ class Plot {
         }
     };
 
-    /// Writes names beside single points where there is room, in order, without covering each other or a
+    /// Writes names beside single points where there is room, in order, covering neither each other nor a
     /// point.
     void names() {
         std::vector<Box> taken;

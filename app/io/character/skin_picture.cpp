@@ -19,8 +19,7 @@ namespace {
 
 constexpr int longest_side = 2048;
 constexpr std::size_t max_pixels = std::size_t{1} << 26;  // limit for one picture before it is halved: 256 MB
-/// A byte of a PNG expands to at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; JPEG expands
-/// less.
+/// A byte of a PNG expands to at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; JPEG to less.
 constexpr std::size_t max_pixels_of_byte = 8 * 1032;
 
 std::size_t pixels(const glm::ivec2& size) {

@@ -119,8 +119,7 @@ class Schema {
         return {words.size(), kind};
     }
 
-    /// A word that follows different words in different places is not a label, nor is one before every
-    /// vector.
+    /// A word after different words in different places is not a label, nor is one before every vector.
     void learn(const std::deque<Line>& lines, std::size_t depth) {
         struct Count {
             std::size_t all = 0;
@@ -198,8 +197,7 @@ class Schema {
         });
     }
 
-    std::map<std::string, bool> kinds_;  ///< words that are not labels, and whether they are before every
-                                         ///< vector
+    std::map<std::string, bool> kinds_;  ///< not labels; whether before every vector
     bool homogeneous_ = false;
 };
 

@@ -12,8 +12,7 @@
 namespace tendril::app {
 
 struct LogToken {
-    char kind = 0;        ///< '0' for a number, 'a' for a word, '\n' for the end of a line, else the
-                          ///< character itself
+    char kind = 0;        ///< '0' for a number, 'a' for a word, '\n' for a line's end, else the character
     bool spaced = false;  ///< follows white space
     std::string_view text{};
     double value = 0.0;
@@ -116,8 +115,7 @@ class LogScanner final : public VectorLines {
     std::optional<double> stamp_{};
     double scale_ = 1.0;  ///< for the following rows, from MATLAB's 1.0e+03 *
     unsigned gap_ = SameLine, opened_ = 0, closed_ = 0;
-    std::size_t unread_ = 0, first_unread_ = 0;  ///< number of lines whose numbers are not vectors; the first
-                                                 ///< of them
+    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines without vectors: how many, and the first
     bool components_ = false, scaled_ = false, lone_ = false, axes_ = false;
 };
 

@@ -148,8 +148,7 @@ class Attempts {
     float reach_ = 0.0f, allowed_;
 };
 
-/// A position for the pole target that prevents the flip: the first that works among eight directions around
-/// the target's line.
+/// A position for the pole target that prevents the flip, in the first of eight directions that works.
 std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame& at, const TraceSolve& base) {
     constexpr std::array shares{0.02f, 0.05f, 0.1f, 0.2f, 0.4f, 0.8f};
     constexpr int ways = 8, halvings = 4;

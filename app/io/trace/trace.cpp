@@ -174,8 +174,7 @@ std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
 
 }  // namespace
 
-// Finds the joint that reaches for the target: the last, unless another is far nearer, such as a wrist with a
-// hand beyond it.
+// Finds the joint that reaches for the target: the last, or one far nearer, such as a wrist before a hand.
 void TraceReader::find_end_effectors() {
     constexpr double nearer = 0.25, near = 0.02;  // fraction of the last joint's distance; of the reach
     if (given_end_) {
@@ -250,8 +249,7 @@ bool TraceReader::next(TracedFrame& frame) {
     if (frame.end && *frame.end + 1 >= raw.joints.size()) frame.end.reset();
     frame.resolution = 0.0f;
     const auto point = [&](const glm::dvec3& p) {
-        constexpr double floats = 0x1p-23;  // half a unit in the last place of a float, in the engine and
-                                            // here
+        constexpr double floats = 0x1p-23;  // half a unit in a float's last place, in the engine and here
         for (int axis = 0; axis < 3; ++axis) {
             const double off =
                 std::max(rounding_.of(p[axis]), floats * std::abs(p[axis])) * conventions_.metres();

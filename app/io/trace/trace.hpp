@@ -53,8 +53,8 @@ struct TracedFrame {
 struct TraceSolve {
     ik::Method method = ik::Method::Fabrik;
     float soft_zone = 0.0f;   ///< fraction of the reach, 0 to 1
-    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, if there is none, adds one at this offset
-                              ///< from the root
+    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it, relative to the
+                              ///< root
     int hinge = 0;            ///< this joint only bends one way, as in the first frame; 0: none
 
     bool operator==(const TraceSolve&) const = default;

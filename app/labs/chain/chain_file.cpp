@@ -76,7 +76,7 @@ void load_crossings(const JsonPlace& place, ChainPart& part) {
         along.report->jumped = jumped->index(along.given.size() - 1);
 }
 
-/// Adds the state of mode Reach to its settings, `json`.
+/// Replaces the solver's state in the saved settings, `json`, by the last report.
 Json reach_state(const ChainPart& part, Json json) {
     json.erase("state");
     json.update({{"report", nullptr}, {"active_limit", nullptr}, {"explanation", nullptr}});

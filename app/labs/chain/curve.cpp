@@ -75,8 +75,7 @@ class CurveDrawing {
                            2, list_);
         pen.line();
         const Selection& selection = part_.along.selection;
-        for (std::size_t i = 0; i < curve_.points.size(); ++i)  // drawn over the joints: the first is on the
-                                                                // root
+        for (std::size_t i = 0; i < curve_.points.size(); ++i)  // over the joints: the first is on the root
             pen.control(i, control_pick(i), selection.has(i), selection.active() == i);
         if (curve_frames().chosen(view_.workspace.settings) == 1) frames();
     }

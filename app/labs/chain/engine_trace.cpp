@@ -101,8 +101,7 @@ void find_all(ShownTrace& trace, const std::string& chain) {
     view.rotations = trace.conventions.rotations.value;
 }
 
-/// Keeps as many frames as the strip holds: those from `from` on or, without it, those around the first
-/// incident.
+/// Keeps as many frames as the strip holds, from `from` on or, without it, around the first incident.
 void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
     const std::uint64_t half = Rewind::max_ticks / 2;
     const std::uint64_t first = trace.incidents.empty() ? 0 : trace.incidents.front().frame;
@@ -209,8 +208,7 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
     return found == nullptr ? said : said + ". " + found->text(trace.bones, trace.conventions);
 }
 
-/// Puts the trace on the strip and shows its first fault; with `same_frames`, stays at the strip's present
-/// moment.
+/// Puts the trace on the strip and shows its first fault; with `same_frames`, keeps the strip's moment.
 void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& trace, bool same_frames) {
     Moments moments(trace);
     const std::uint64_t last = moments.all.size() - 1;

@@ -425,8 +425,7 @@ void option_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     for (const Field& field : fields<ReachSettings>()) {
         const std::string_view name = field.name;
         if (name == "solver" || name.starts_with("pole"))
-            continue;  // has a row of its own, or is below its
-                       // switch
+            continue;  // has its own row, or is below its switch
         std::optional<double> otherwise;
         if (name == "tolerance") otherwise = reach_tolerance(reach, part.chain.reach());
         if (name == "restarts") otherwise = default_restarts;

@@ -66,8 +66,7 @@ PastCurve joint_curve(const Workspace& workspace, const char* what, const char* 
             }};
 }
 
-/// Whether both have the same number of joints, and bones of the same lengths within an engine log's
-/// rounding.
+/// The same number of joints, and bones of the same lengths within an engine log's rounding.
 bool same_joints(const Part& then, const Part& now) {
     const auto a = own_chain(part_as<ChainPart>(then)).segments(),
                b = own_chain(part_as<ChainPart>(now)).segments();

@@ -32,8 +32,7 @@ using Racers = std::array<bool, ik::all_methods.size()>;
 /// dropped and from then on only every second is kept; then every fourth, and so on.
 class KeptPoses {
   public:
-    /// Positions, 3 MiB in all: every iteration of a chain of up to 26 joints, at least 256 iterations of one
-    /// of 512.
+    /// Positions, 3 MiB in all: every iteration of up to 26 joints, at least 256 iterations of 512 joints.
     static constexpr std::size_t default_most = 1u << 18;
 
     explicit KeptPoses(std::size_t most = default_most) : most_(most) {}
@@ -72,8 +71,7 @@ struct Racer {
 /// A racer after an iteration of the race. Once finished, it stays at its end.
 struct RacerAt {
     bool finished = false;
-    int iteration = 0;                  ///< its own iteration; in a long solve of a long chain, the last kept
-                                        ///< one
+    int iteration = 0;                  ///< its own; in a long solve of a long chain, the last kept one
     std::span<const glm::vec3> joints;  ///< of the racer, or of its kept poses
     float error = 0.0f;                 ///< metres from the tip to the target
 };

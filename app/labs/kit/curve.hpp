@@ -25,8 +25,7 @@ inline constexpr EnumNames<ik::CurveKind, 2> curve_kinds{
 struct CurveShape {
     std::vector<glm::vec3> points;  ///< metres
     ik::CurveOptions options{};     ///< without weights
-    /// -1 to 1: how much less the first bones follow the curve than the last; negative: the last less than
-    /// the first.
+    /// -1 to 1: how much less the first bones follow the curve than the last; negative: the reverse.
     float falloff = 0.0f;
 
     bool operator==(const CurveShape&) const = default;

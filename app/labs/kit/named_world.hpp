@@ -78,8 +78,7 @@ class NamedWorld {
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
     const std::string& name(const rope::Tie& tie) const { return ties_[tie.id.index]; }
 
-    // The functions below throw std::invalid_argument if the library refuses, or if a name is taken or
-    // unknown.
+    // From here on, throws std::invalid_argument if the library refuses, or a name is taken or unknown.
     void set_settings(const rope::Settings& settings);
     void clear() { world_.clear(); }
     /// Returns the body's name; an empty `name` becomes "rope", "rope 2", ...
