@@ -24,7 +24,7 @@ constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows by their c
 /// Ticks must continue after a click until a second one is no longer a double click.
 constexpr int double_click_ticks = 20;
 
-/// Whether the key types or deletes a character of a number.
+/// True if the key types or deletes a character of a number.
 bool in_number(Key key) {
     return (key >= Key::Num0 && key <= Key::Num9) || key == Key::Period || key == Key::Comma ||
            key == Key::Minus || key == Key::Delete || key == Key::Backspace;

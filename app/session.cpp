@@ -182,7 +182,7 @@ int run(const SessionOptions& options) {
     return exit_code;
 }
 
-/// Whether the user has already chosen the lab's setting that the command changes.
+/// True if the user has already chosen the lab's setting that the command changes.
 bool is_chosen(const Lab& lab, const Settings& settings, const std::string& command) {
     const std::vector<LabSetting> all = lab.all_settings();
     return std::any_of(all.begin(), all.end(), [&](const LabSetting& each) {

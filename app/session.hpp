@@ -48,7 +48,7 @@ int run_command_line(const std::vector<std::string>& words);
 
 // The scene that a window opens with: it moves, and has cards of things to try.
 
-/// Whether the session has a window and was given no scene, lab or script.
+/// True if the session has a window and was given no scene, lab or script.
 bool opens_alive(const SessionOptions& options);
 /// Sets up every lab's opening as a new scene: nothing to undo, nothing to save. The openings move by
 /// themselves until the user takes over (Lab::calm()), which does not mark the scene as modified.

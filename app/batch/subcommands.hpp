@@ -54,7 +54,7 @@ struct TraceOptions {
 /// output cannot be written.
 std::size_t run_trace(const TraceOptions& options);
 
-/// For --help.
+/// The help text.
 extern const char* const trace_help;
 
 // `tendril signal`: runs filters over the samples of a file, or fits them.
@@ -104,7 +104,7 @@ std::vector<std::string> bake_grounds();
 /// read, has no such clip, lacks the legs that a ground needs, or cannot be written.
 void run_bake(const BakeOptions& options);
 
-/// For --help.
+/// The help text.
 extern const char* const lint_help;
 extern const char* const bake_help;
 
@@ -114,7 +114,7 @@ extern const char* const bake_help;
 /// std::runtime_error if the output cannot be written.
 void print_paper(bool csv, const std::atomic<bool>& ending);
 
-/// For --help.
+/// The help text.
 extern const char* const paper_help;
 
 }  // namespace tendril::app

@@ -59,7 +59,7 @@ void check_point(const Json& value, ArgumentType type, const auto& refuse) {
     }
 }
 
-/// Whether the coordinates have unit length, within the rounding of hand-written decimals.
+/// True if the coordinates have unit length, within the rounding of hand-written decimals.
 bool is_unit(const Json& value) {
     double squares = 0.0;
     for (const auto& coordinate : value) {

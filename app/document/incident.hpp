@@ -40,7 +40,7 @@ struct Incident {
     std::vector<Cure> buttons{};   ///< apply the cure, where commands can
 };
 
-/// As written by --state.
+/// Name of the kind in --state.
 inline const char* name(Incident::Kind kind) {
     static constexpr std::array names{"flip", "limit", "restart", "status", "jump"};
     return names[static_cast<std::size_t>(kind)];

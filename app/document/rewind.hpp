@@ -56,7 +56,7 @@ class Rewind {
     /// Null if that moment was discarded or overwritten.
     const Moment* find(const MomentId& id) const;
 
-    /// By tick.
+    /// In order of tick.
     const std::deque<Moment>& moments() const { return moments_; }
     std::size_t size() const { return moments_.size(); }
     std::size_t bytes() const { return bytes_; }

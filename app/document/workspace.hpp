@@ -95,7 +95,7 @@ struct CardProgress {
 
 bool card_shown(const Settings& settings, const std::string& lab);
 void show_card(Settings& settings, const std::string& lab, bool shown);
-/// Whether the user ever showed or hid the card.
+/// True if the user ever showed or hid the card.
 bool card_known(const Settings& settings, const std::string& lab);
 
 inline constexpr double tick_seconds = 1.0 / 60.0;
@@ -148,7 +148,7 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Picture, Video } file_dialog = FileDialog::None;
     bool plays_after_dialog = false;  ///< the simulation resumes when the dialog closes
-    std::string browses_for;          ///< the command that the file to open is for; empty: that of its kind
+    std::string browses_for;          ///< the command for the chosen file; empty: its kind's
     struct FileQuestion {
         std::string path;
         std::vector<FileWay> ways{};  ///< none: nothing is asked
@@ -170,7 +170,7 @@ struct UiState {
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 
-    /// Whether something that Esc closes is open over the scene.
+    /// True if something that Esc closes is open over the scene.
     bool covered() const {
         return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None ||
                !file_question.ways.empty();

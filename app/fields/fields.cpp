@@ -274,7 +274,7 @@ Json save_list(const Field& field, const Scope& scope) {
     return list;
 }
 
-/// Whether files omit the field.
+/// True if files omit the field.
 bool is_left_out(const Field& field, const void* object) {
     if (field.type == FieldType::Kind) return count_of(field, object) == 0;
     return field.sparse && field.kinds.empty() &&

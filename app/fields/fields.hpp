@@ -17,7 +17,7 @@
 
 namespace tendril::app {
 
-/// Whether a field is an angle: a number of unit "rad" or "rad/s". Files, commands and panels use degrees.
+/// True if a field is an angle: a number of unit "rad" or "rad/s". Files, commands and panels use degrees.
 bool is_angle(const Field& field);
 /// A field's name in files and commands: "damping"; for an angle, "twist_min_deg".
 std::string file_name(const Field& field);
@@ -69,7 +69,7 @@ struct FieldsIn {
     void* object;
 };
 
-/// Whether two structs have the same value in this field.
+/// True if two structs have the same value in this field.
 bool same_field(const Field& field, const void* a, const void* b);
 
 // In files, an element whose first row is a text is identified by it: the text is not empty, and unique

@@ -34,7 +34,7 @@ Json report_json(ik::Method method, const ik::Report& report);
 
 /// Throws std::runtime_error that begins with `where` and lists the names.
 ik::Method method_from_name(const std::string& name, const std::string& where);
-/// By ik::Method.
+/// Indexed by ik::Method.
 std::span<const char* const> solver_names();
 /// "fabrik, fabrik_plain, ccd, ..."
 std::string method_names();

@@ -36,7 +36,7 @@ class VideoFile {
     virtual ~VideoFile() = default;
     /// Throws if the frame's size differs from the video's, or there are too many frames.
     virtual void add(const Image& frame) = 0;
-    /// Whether another program writes the file, so that the time to finish is unpredictable.
+    /// True if another program writes the file, so that the time to finish is unpredictable.
     virtual bool by_another_program() const { return false; }
     /// After the last frame: whether finish() would have to wait for that program.
     virtual bool waits() { return false; }

@@ -93,7 +93,7 @@ struct FileKind {
     std::vector<std::string> endings;  ///< in lower case: ".bvh"
     std::string command;               ///< opens such a file, given as `path`
     ArgumentList arguments{};          ///< further arguments
-    /// Whether a file's text begins like this kind. Decides if several kinds share the extension, or if no
+    /// True if a file's text begins like this kind. Decides if several kinds share the extension, or if no
     /// kind has it. Null: the extension alone decides.
     bool (*begins)(std::string_view text) = nullptr;
 };
@@ -142,10 +142,10 @@ class Lab {
     /// Its incidents in a change or a tick: `before` and `after` are parts of this lab; the workspace gives
     /// access to its runtime. The caller sets the ticks.
     std::vector<Incident> review(const Workspace& workspace, const Part& before, const Part& after) const;
-    /// Whether incidents in `before` still apply to `after`: the joints are the same. If not, they are
+    /// True if incidents in `before` still apply to `after`: the joints are the same. If not, they are
     /// dropped.
     bool same_joints(const Part& before, const Part& after) const;
-    /// Whether a long computation is running; work() does a part of it each tick, even while paused.
+    /// True if a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
     /// How many of the last ticks make one cycle that ends as it began; 0: none.
@@ -189,7 +189,7 @@ class Lab {
     virtual void click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// Whether Ctrl and a drag on empty space selects by a box.
+    /// True if Ctrl and a drag on empty space selects by a box.
     virtual bool selects_by_box() const { return false; }
     /// Handles that a box in a pane can select, by their positions there.
     virtual std::vector<Handle> selectable(const Workspace& workspace, std::size_t /*pane*/) const {
@@ -197,7 +197,7 @@ class Lab {
     }
     /// Selects the handles in the box; `add` keeps the previous selection. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
-    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of its usual
+    /// True if a drag, wherever it begins, draws a straight stroke across the scene instead of its usual
     /// effect.
     virtual bool takes_strokes(const Workspace&) const { return false; }
     /// The stroke in a pane, in the camera's pixels; its commands are emitted continuously, as one step to
@@ -208,9 +208,9 @@ class Lab {
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// What the mouse does at that pick, for the status line.
+    /// The mouse's effect at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
-    /// Whether pictures and videos have labels and legend if the request does not specify it.
+    /// True if pictures and videos have labels and a legend by default.
     virtual bool labels_pictures(const Workspace&) const { return false; }
     /// Draws the plot that stands in a corner of pictures with labels; null: none.
     virtual std::function<void()> picture_plot(const Workspace&, const Palette&) const { return {}; }
@@ -233,7 +233,7 @@ class Lab {
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}
     virtual void inspector(const Workspace&, Emit&) const {}
-    /// Whether the inspector shows an analysis, which needs the card's room.
+    /// True if the inspector shows an analysis, which needs the card's room.
     virtual bool analyses(const Workspace&) const { return false; }
     virtual std::vector<LegendRow> legend(const Workspace&) const { return {}; }
 

@@ -56,7 +56,7 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;                 ///< what the mouse does where it is
+    std::string hint;                 ///< the mouse's effect where it is
     const Card* card = nullptr;       ///< the shown card of things to try, if any
     std::span<const Card> cards{};    ///< all cards of the lab
     std::span<const Stroke> drawn{};  ///< the scene's strokes in the last picture

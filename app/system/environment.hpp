@@ -23,7 +23,7 @@ void handle_end_signals(void (*handler)(int));
 /// Empty if not set.
 std::string environment_variable(const char* name);
 
-/// Whether stderr is a terminal that takes escape sequences.
+/// True if stderr is a terminal that takes escape sequences.
 bool errors_on_terminal();
 
 /// The folder that "~" stands for; empty where "~" means nothing.

@@ -41,7 +41,7 @@ class SystemFile {
     /// Locks it until it is closed or the program ends for any reason; false if another holder has it. A
     /// shared lock only excludes exclusive ones.
     bool try_lock(bool shared = false);
-    /// Whether `path` still names this file.
+    /// True if `path` still names this file.
     bool has_name(const std::filesystem::path& path) const;
     /// Takes the permissions of the file at `path`, if there is one.
     bool copy_permissions(const std::filesystem::path& path);
@@ -60,7 +60,7 @@ class FileLock {
   public:
     /// Creates and locks the file; null if another holder has it or it cannot be created.
     static std::unique_ptr<FileLock> take(const std::filesystem::path& path);
-    /// Whether any program holds it, including this one.
+    /// True if any program holds it, including this one.
     static bool is_held(const std::filesystem::path& path);
 
     FileLock(const FileLock&) = delete;
@@ -77,7 +77,7 @@ class FileLock {
 /// Renames a file over another and syncs their folder. `from` may be open here.
 bool replace_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Whether an existing file may be written to; true for a missing one.
+/// True if an existing file may be written to; true for a missing one.
 bool may_write(const std::filesystem::path& path);
 
 /// Changes whenever another program writes the file. All 0: no file.

@@ -134,7 +134,7 @@ class Edges {
     glm::vec3 to_eye(glm::vec3 point) const {
         return camera_.pose().orthographic ? -camera_.forward() : camera_.eye() - point;
     }
-    /// Whether a face with this normal, through this point, faces the eye.
+    /// True if a face with this normal, through this point, faces the eye.
     bool front(glm::vec3 normal, glm::vec3 point) const { return glm::dot(normal, to_eye(point)) > 0.0f; }
 
     /// `width` in metres at a point.

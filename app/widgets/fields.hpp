@@ -115,7 +115,7 @@ struct SearchText {
 };
 /// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared the text.
 bool search_line(const char* id, const char* hint, SearchText& typed);
-/// Whether `text` contains `part`, ignoring case.
+/// True if `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);
 
 /// The open list or menu: at most one is open.

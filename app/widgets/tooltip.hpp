@@ -38,7 +38,7 @@ void text_elided(const std::string& text, float width, bool dim = false);
 /// Writes the text right-aligned in the remaining width, so that digits line up.
 void text_flush_right(const std::string& text, bool dim = false);
 
-/// Whether Escape was pressed in this frame.
+/// True if Escape was pressed in this frame.
 bool escape_pressed();
 void close_popup_on_escape();
 

@@ -77,7 +77,7 @@ class Words {
             if (static_cast<unsigned char>(c) < ' ') c = '?';
         return '"' + text + '"';
     }
-    /// Whether nothing but blanks follows on this line.
+    /// True if nothing but blanks follows on this line.
     bool at_line_end() const {
         const std::size_t end = std::min(text_.find_first_not_of(" \t\v\f", at_), text_.size());
         return end == text_.size() || text_[end] == '\n' || text_[end] == '\r';

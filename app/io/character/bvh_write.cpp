@@ -48,7 +48,7 @@ class Writer {
 
   private:
     static std::size_t at(std::int32_t node) { return static_cast<std::size_t>(node); }
-    /// Whether the node came from an end site: it has the reader's name for one, and is not animated.
+    /// True if the node came from an end site: it has the reader's name for one, and is not animated.
     bool is_end_site(std::size_t node) const {
         const std::int32_t parent = skeleton_[node].parent;
         return skeleton_.children(node).empty() && parent >= 0 &&

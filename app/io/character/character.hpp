@@ -36,7 +36,7 @@ class LoadProgress {
     std::atomic<bool> cancelled_{false};
 };
 
-/// For readers; `progress` may be null.
+/// Called by readers; `progress` may be null.
 inline void report(LoadProgress* progress, double part) {
     if (progress) progress->at(part);
 }
@@ -170,7 +170,7 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
 /// name.
 std::string character_bytes(const std::filesystem::path& path, std::uintmax_t most = UINTMAX_MAX);
 
-/// Whether the file name has the extension of a supported file.
+/// True if the file name has the extension of a supported file.
 bool ends_as_character(const std::filesystem::path& path);
 
 /// Moves feet that hang outside the legs below them (tendril/humanoid/attach.hpp) if that changes no motion,

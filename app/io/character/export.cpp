@@ -99,7 +99,7 @@ class Comparison {
     std::vector<Placement> wanted_{}, found_{};
 };
 
-/// Whether the original has the same fault at the same joint, at the same or a neighbouring frame.
+/// True if the original has the same fault at the same joint, at the same or a neighbouring frame.
 bool is_known(const humanoid::Finding& finding, const humanoid::LintReport& original) {
     constexpr std::size_t near = 3;  // frames
     return std::ranges::any_of(original.findings, [&](const humanoid::Finding& each) {

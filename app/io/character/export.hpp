@@ -48,7 +48,7 @@ struct Export {
 
 inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 
-/// Whether the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
+/// True if the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
 bool ends_as_export(const std::filesystem::path& path);
 
 /// "1 of 14 clips: Walking"; empty if the character has no other clip.

@@ -319,7 +319,7 @@ void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
     if (!skins.empty()) file.json["skins"] = std::move(skins);
 }
 
-/// Whether the file can hold the whole mesh: one tree, a joint for each node, plain colours.
+/// True if the file can hold the whole mesh: one tree, a joint for each node, plain colours.
 bool is_written(const Character& character) {
     const SkinnedMesh* const mesh = character.skin.mesh.get();
     if (mesh == nullptr || !mesh->pictures.empty() || !mesh->morphs.empty() || !mesh->tints.empty())

@@ -61,7 +61,7 @@ std::vector<double> times_to_compare(const humanoid::Clip& clip, std::size_t nod
     return times;
 }
 
-/// Whether the clip's motion stays the same. A scale of 0, or a shear, may occur only in a clip.
+/// True if the clip's motion stays the same. A scale of 0, or a shear, may occur only in a clip.
 bool keeps_motion(const Skeleton& before, const Skeleton& after, const humanoid::Clip& clip,
                   std::size_t node) {
     std::vector<rig::Transform> pose(before.size());

@@ -87,7 +87,7 @@ class SkinBuilder {
     /// picture with the same bytes; -1 if it is neither, is broken or exceeds the limit. It is halved until
     /// no side is over 2048 and it takes at most an eighth of the space left for pictures.
     std::int32_t add_picture(std::string_view bytes);
-    /// Whether the picture limit was reached: no more are decoded, even if they would shrink enough.
+    /// True if the picture limit was reached: no more are decoded, even if they would shrink enough.
     bool pictures_are_full() const { return full_; }
 
     std::size_t corners() const { return mesh_.positions.size(); }

@@ -26,7 +26,7 @@ std::size_t pixels(const glm::ivec2& size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-/// Whether a PNG has the bytes that its chunks claim: stb allocates them before it checks. Other files pass.
+/// True if a PNG has the bytes that its chunks claim: stb allocates them before it checks. Other files pass.
 bool has_its_chunks(std::string_view bytes) {
     if (!bytes.starts_with("\x89PNG")) return true;
     std::size_t at = 8;

@@ -288,7 +288,7 @@ class LogTrace final : public RawTrace {
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
     }
-    /// Whether unnamed positions keep their distances, except the last one.
+    /// True if unnamed positions keep their distances, except the last one.
     bool last_is_target(const std::vector<const LogVector*>& joints) {
         const std::size_t count = period_ > 0 ? period_ : joints_;
         /// The fraction by which a distance varies, without the tenth at either end.
@@ -312,7 +312,7 @@ class LogTrace final : public RawTrace {
                         " positions was taken for the target: its distance from the one before changes");
         return true;
     }
-    /// Whether gaps of at least `level` split the joints into groups of one size, or of alternating chains.
+    /// True if gaps of at least `level` split the joints into groups of one size, or of alternating chains.
     bool splits(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps,
                 unsigned level) {
         std::map<std::size_t, std::size_t> counts;  // groups by size

@@ -52,7 +52,7 @@ double dot(const double* a, const double* b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether three rows, `stride` numbers apart, are orthonormal.
+/// True if three rows, `stride` numbers apart, are orthonormal.
 bool rotates(const double* rows, std::size_t stride) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j)

@@ -80,7 +80,7 @@ class RawTrace {
 /// Detects the format. Throws std::runtime_error if the stream is empty.
 std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 
-// For the formats.
+// Helpers of the formats.
 
 inline bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -96,7 +96,7 @@ std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
 /// Seconds per unit of a column or word: 1e-3 for "time_ms" and "time [ms]"; 0 if it is not a time.
 double time_unit(std::string_view name);
-/// Whether a column's name shows that its numbers are not a position: "elbow_rotation", "hand.rpy".
+/// True if a column's name shows that its numbers are not a position: "elbow_rotation", "hand.rpy".
 bool names_no_position(std::string_view name);
 /// "left_elbow", "elbow.r" and "RightElbow" are the elbow of the left (0) or right (1) side. In lower case.
 struct Sided {

@@ -106,7 +106,7 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
     return points;
 }
 
-/// Whether a column's name is only an axis: X, or X1 as in a .trc file.
+/// True if a column's name is only an axis: X, or X1 as in a .trc file.
 bool is_axis(std::string_view cell) {
     cell = cell.substr(0, std::min(cell.find_first_of("0123456789"), cell.size()));
     return cell.size() == 1 && std::string_view("xyzwXYZW").find(cell) != cell.npos;

@@ -45,7 +45,7 @@ struct TracedFrame {
     std::size_t end_effector() const { return end.value_or(joints.size() - 1); }
     /// The end effector's position if there is no target.
     glm::vec3 goal() const { return target.value_or(joints[end_effector()]); }
-    /// Whether joints, target and pole target are finite.
+    /// True if joints, target and pole target are finite.
     bool finite() const;
 };
 

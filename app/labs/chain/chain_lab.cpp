@@ -20,7 +20,7 @@ std::string name_of(const ChainPart& part, std::size_t index) {
     return "Joint " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
 }
 
-/// What the mouse does on a joint in mode Reach.
+/// The mouse's effect on a joint in mode Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
     const std::string joint = name_of(part, index);
     if (part.study.open()) return joint + ": click selects it.";
@@ -83,7 +83,7 @@ void ChainLab::step(Workspace& workspace) const {
     workspace.toast(*stopped, ToastKind::Refusal);
 }
 
-/// Whether the microscope or the race plays.
+/// True if the microscope or the race plays.
 bool ChainLab::working(const Workspace& workspace) const {
     return chain_part(workspace).study.pace > 0.0f;
 }

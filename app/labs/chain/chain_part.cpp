@@ -171,7 +171,7 @@ float length_error(const Chain& chain, std::size_t index) {
 
 namespace {
 
-/// Whether both would give the same trace or race.
+/// True if both would give the same trace or race.
 bool same_study(const ChainPart& a, const ChainPart& b) {
     return a.study.kind == b.study.kind && a.study.start == b.study.start &&
            a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&

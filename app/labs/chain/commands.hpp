@@ -97,7 +97,7 @@ void add_paste_command(CommandTable& table);
 /// chain.save_trace: writes the strip's moments in the format that `tendril trace` reads.
 void add_save_trace_command(CommandTable& table);
 
-/// Whether a file's text begins like a trace, for Lab::files().
+/// True if a file's text begins like a trace, for Lab::files().
 bool begins_like_trace(std::string_view text);
 
 void add_chain_commands(CommandTable& table);

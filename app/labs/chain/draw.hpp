@@ -29,7 +29,7 @@ ShownChain shown_chain(const Workspace& workspace);
 /// One position for each joint, metres.
 std::vector<glm::vec3> shown_joints(const ShownChain& shown);
 
-/// Whether the displayed pose is the end of the last solve, not a step on the way.
+/// True if the displayed pose is the end of the last solve, not a step on the way.
 bool shows_end(const ShownChain& shown);
 
 /// The active limit if the end of the solve is shown; otherwise null.

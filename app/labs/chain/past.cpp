@@ -106,7 +106,7 @@ Sides sides_of(const ChainPart& part, std::size_t bone) {
             side_of(angles.twist, limit.twist_min, limit.twist_max)};
 }
 
-/// Whether an angle went from one end of its range to the other.
+/// True if an angle went from one end of its range to the other.
 bool limit_switched(const ChainPart& before, const ChainPart& after) {
     for (std::size_t bone = 0; bone < after.reach.limits.size(); ++bone) {
         const Sides was = sides_of(before, bone), is = sides_of(after, bone);
@@ -166,7 +166,7 @@ std::string status_cause(const ChainPart& part) {
     return verdict.substr(0, verdict.find(':')) + ": " + status_text(part);
 }
 
-/// Whether only target and pole target differ: the same chain, with the same settings.
+/// True if only target and pole target differ: the same chain, with the same settings.
 bool comparable(const ChainPart& before, const ChainPart& after) {
     const Chain &a = before.chain, &b = after.chain;
     if (before.mode != ChainMode::Reach || after.mode != ChainMode::Reach) return false;

@@ -70,7 +70,7 @@ glm::quat least_rotation(glm::vec3 from, glm::vec3 to);
 /// shortest rotation onto the bone's present direction. `rest`: the direction of all bones at rest.
 std::vector<glm::quat> rotations_at(const std::vector<glm::vec3>& joints, std::vector<glm::quat> rotations,
                                     glm::vec3 rest);
-/// Whether the method accepts this chain: two_bone needs exactly two bones.
+/// True if the method accepts this chain: two_bone needs exactly two bones.
 bool takes(ik::Method method, const Chain& chain);
 inline constexpr const char* needs_two_bones = "needs exactly two bones";
 /// "Two-bone needs exactly two bones; this chain has 7."
@@ -101,7 +101,7 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
 void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now);
 /// Removes all limits, the plane's too.
 void forget_limits(ReachSettings& settings);
-/// Whether joints have limits, with or without a plane.
+/// True if joints have limits, with or without a plane.
 bool is_limited(const ReachSettings& settings);
 /// The limit of a bone in the plane; unlimited if none is set.
 ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint);

@@ -250,7 +250,7 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
     return told + ") m";
 }
 
-/// Whether pasted text is a trace: two frames or more, or a pose with a target.
+/// True if pasted text is a trace: two frames or more, or a pose with a target.
 bool holds_trace(const std::string& text) {
     try {
         std::istringstream in(text);

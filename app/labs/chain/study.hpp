@@ -59,7 +59,7 @@ struct Racer {
     KeptPoses poses;                ///< after each iteration; 0 is the prepared start
     /// Metres, before the first iteration and after each; never empty. The last is the final one.
     std::vector<float> residuals;
-    /// Whether the solver finally restored an earlier, better pose; the report's residual is that pose's.
+    /// True if the solver finally restored an earlier, better pose; the report's residual is that pose's.
     bool restored = false;
     /// Time of the whole solve, the fastest of several runs. It varies from run to run, so it must not appear
     /// in --state or in compared pictures.

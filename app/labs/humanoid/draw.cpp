@@ -70,7 +70,7 @@ class Drawing {
         if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
         return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
     }
-    /// Whether the joint's limit stops its bone.
+    /// True if the joint's limit stops its bone.
     bool at_limit(std::size_t i) const {
         const auto bone = part_.bone_of(i);
         return bone && shown_.body && shown_.body->at_limit[static_cast<std::size_t>(*bone)];

@@ -50,7 +50,7 @@ struct Playback {
     bool operator==(const Playback&) const = default;
 };
 
-/// Whether a tick changes anything.
+/// True if a tick changes anything.
 bool goes_on(const Playback& playback, const LoadedCharacter& character);
 /// Advances by `seconds`; a clip that does not loop stops at its end.
 void advance(Playback& playback, const LoadedCharacter& character, double seconds);
@@ -74,7 +74,7 @@ void measure_pace(HumanoidPart& part);
 /// the clip meets them in the same way in every round.
 void carry_targets(HumanoidPart& part, const Playback& before);
 
-/// Whether the strip shows Motion lint's marks on the clip.
+/// True if the strip shows Motion lint's marks on the clip.
 bool shows_lint_marks(const Workspace& workspace);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed; with

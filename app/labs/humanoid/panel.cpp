@@ -101,7 +101,7 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     for (const std::string& each : loaded.character.sentences()) note(each);
 }
 
-/// For a clip that walks in place.
+/// Rows for a clip that walks in place.
 void pace_rows(const HumanoidPanel& panel) {
     // Seconds. A walk in place is a cycle, and a long clip is slow to measure.
     constexpr double longest = 20.0;

@@ -22,7 +22,7 @@ struct HumanoidPanel {
 };
 HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
 
-/// Whether the character is usable and reaches its targets.
+/// Says whether the character is usable and reaches its targets.
 Verdict humanoid_verdict(const Workspace& workspace);
 
 /// Maps the waiting bone to the node (none if negative) and selects that node. If the bone had no node, the

@@ -66,7 +66,7 @@ struct Past {
     std::vector<Probe> probes;
     const char *plot_help, *ghosts_help;
     PoseLines (*pose)(const Workspace&, const SharedPart&);
-    /// Whether two parts have the same joints; if not, poses of one cannot be shown with the other, and its
+    /// True if two parts have the same joints; if not, poses of one cannot be shown with the other, and its
     /// incidents are dropped.
     bool (*same_joints)(const Part& then, const Part& now) = nullptr;
     /// Events in a change or a tick that the user may ask about, such as a joint that jumped.
@@ -124,7 +124,7 @@ float past_plot_height(const Settings& settings, const Past& past);
 /// strip.
 void past_plot(const Workspace& workspace, const Past& past, const std::optional<StripLine>& strip,
                Emit& emit);
-/// Whether some moments are not computed yet.
+/// True if some moments are not computed yet.
 bool past_plot_waits(const Workspace& workspace, const Past& past);
 
 /// The value at a tick. The last one may be the present.

@@ -28,7 +28,7 @@ inline glm::dvec2 guide_direction(const ik::SketchPoint& point) {
 std::span<const Field> guide_fields();
 /// The bars that meet at a point of the sketch.
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
-/// Whether the inspector offers a motor for each pair of bars at the point: it is free and has few bars.
+/// True if the inspector offers a motor for each pair of bars at the point: it is free and has few bars.
 bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
 /// Changes the length of a bar with two joints. The others keep their lengths; motors and held joints stay if
 /// they can. Throws Refused with the length that can be reached.
@@ -38,13 +38,13 @@ void set_bar_length(ik::LinkageSketch& sketch, std::size_t bar, double metres);
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism);
 /// Advances all motors by one tick.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
-/// Whether the motor is switched on, even if it cannot move.
+/// True if the motor is switched on, even if it cannot move.
 inline bool is_running(const LinkageDrive& drive) {
     return drive.rate != 0.0;
 }
-/// Whether a driver is still short of a value that one solve could not reach; the next solve continues.
+/// True if a driver is still short of a value that one solve could not reach; the next solve continues.
 bool goes_on(const LinkagePart& part);
-/// Whether the motor cannot continue: it is at a dead point, or at the end of a range.
+/// True if the motor cannot continue: it is at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 
 /// An argument that names a point.

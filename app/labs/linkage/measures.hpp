@@ -15,7 +15,7 @@
 
 namespace tendril::app {
 
-/// Whether the link's joint is a hinge, so that its values are angles.
+/// True if the link's joint is a hinge, so that its values are angles.
 bool turns(const LinkagePart& part, std::string_view joint);
 /// Converts a value or speed of the joint to degrees or metres, as in files, commands and panels; and back.
 double in_degrees(const LinkagePart& part, std::string_view joint, double value);

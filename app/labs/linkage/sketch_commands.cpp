@@ -36,7 +36,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
     }
 }
 
-/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
+/// True if a bar, a motor or a sliding joint has this name: each of them becomes a link.
 bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
     const auto point = sketch.find_point(name);
     return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||

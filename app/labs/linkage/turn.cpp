@@ -60,7 +60,7 @@ std::vector<LinkageTurn::Pose> swept(ik::LinkageSolver& solver, ik::LinkageState
     return poses;
 }
 
-/// Whether a pose lies between two neighbours of the turn. Compares joint values, since the paths of two
+/// True if a pose lies between two neighbours of the turn. Compares joint values, since the paths of two
 /// assembly modes may cross.
 bool is_on(const LinkageTurn& turn, const ik::LinkageState& state, const ik::Linkage& linkage, double size) {
     const auto between = [&](const LinkageTurn::Pose& a, const LinkageTurn::Pose& b) {
@@ -151,7 +151,7 @@ const Field* crank_field(const LinkagePart& part, const ik::SketchMotor& motor) 
     return nullptr;
 }
 
-/// Whether the motor turns all the way round with a crank of this length, set as a command does.
+/// True if the motor turns all the way round with a crank of this length, set as a command does.
 bool goes_round(LinkagePart part, const ik::SketchMotor& motor, double crank) {
     LinkageRuntime runtime;
     try {

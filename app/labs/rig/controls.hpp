@@ -45,7 +45,7 @@ class ControlShape {
     /// Global pose of the middle of the rail, which lies along x.
     const rig::Transform& rail_pose() const { return now_; }
 
-    /// Whether a component of the value is at the end of its range, other than by its initial value.
+    /// True if a component of the value is at the end of its range, other than by its initial value.
     bool at_limit() const;
     Drag drag() const;
     /// The gizmo part that acts like a drag of the knob.

@@ -30,7 +30,7 @@ constexpr std::size_t max_labels = 2000;
 constexpr float gizmo_clearance = 84.0f;  ///< keeps a name clear of the gizmo
 constexpr const char* before_units = "before any unit";
 
-/// Whether units move an element away from its input pose, which its gizmo sets.
+/// True if units move an element away from its input pose, which its gizmo sets.
 bool starts_elsewhere(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
     const rig::ElementId id = part.rig.id(i);
     if (elements.kind(id) == rig::ElementKind::Control) return false;

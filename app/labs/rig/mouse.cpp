@@ -39,7 +39,7 @@ const rig::Hierarchy& elements_of(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
 }
 
-/// Whether the rig still has the element.
+/// True if the rig still has the element.
 bool is_there(const RigPart& part, PickId pick) {
     return pick >= 0 && picked_element(pick) < part.state->controls.size();
 }

@@ -164,7 +164,7 @@ std::string limit_text(const rig::Control& control, int axis, bool maximum) {
     return text + " m along " + std::array{"x", "y", "z"}[static_cast<std::size_t>(along)];
 }
 
-/// Whether one of its numbers is at its limit. An empty range has no limits.
+/// True if one of its numbers is at its limit. An empty range has no limits.
 bool at_limit(const rig::Control& control, const rig::Value& value, int axis, bool maximum) {
     const auto& limit = maximum ? control.maximum : control.minimum;
     if (!limit) return false;

@@ -183,7 +183,7 @@ struct RigPart final : Part {
 
     rig::Rig rig;
     SharedState state;
-    /// Whether the next tick changes anything: there was an edit, or a unit with memory still moves.
+    /// True if the next tick changes anything: there was an edit, or a unit with memory still moves.
     bool moving = false;
     std::optional<BackwardLeft> backward;
     RigTake take;                ///< `state` is its state at `take.tick`

@@ -44,7 +44,7 @@ KeysOfTick keys_at(const RigTake& take, std::uint32_t tick) {
     return {{begin, set}, {set, end}};
 }
 
-/// Whether the control already has the key's value: it was set here, or changes nothing.
+/// True if the control already has the key's value: it was set here, or changes nothing.
 bool is_shown(const RigPart& part, const TakeKey& key) {
     return part.state->controls[key.element] == key.value;
 }

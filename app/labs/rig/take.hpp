@@ -19,7 +19,7 @@ void key_control(RigPart& part, std::size_t element);
 /// first and solving once.
 void solve_now(RigPart& part, RigRuntime& runtime, bool measured);
 
-/// Whether a tick would change anything.
+/// True if a tick would change anything.
 bool time_moves(const RigPart& part);
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
 /// Goes to any tick of the take, or past its end, with the same result as playing to it. Throws
@@ -46,7 +46,7 @@ class TakeRunner {
 
 // Positions on the paths that controls follow.
 
-/// Whether controls of this kind can follow a path.
+/// True if controls of this kind can follow a path.
 bool can_walk(rig::ControlKind kind);
 /// The position `ticks` after the start of the take (may be fractional), within the control's space.
 glm::dvec3 walk_point(const Motion& motion, double ticks);

@@ -29,7 +29,7 @@ struct UnitInput {
     /// For an input: the type of a literal; none: any type.
     std::optional<rig::Type> type() const { return rig::access_of(*field).type; }
     bool is(FieldType type) const { return field->type == type; }
-    /// Whether it takes an input. A field of type Other that does not, holds an item.
+    /// True if it takes an input. A field of type Other that does not, holds an item.
     bool takes_input() const {
         return is(FieldType::Other) && rig::access_of(*field).takes == rig::InputAccess::Takes::Any;
     }

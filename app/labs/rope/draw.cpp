@@ -74,11 +74,11 @@ class Drawing {
         return chosen(body) && part_.selection->particles.has(i);
     }
 
-    /// Whether its particles show the selection; if all of it is selected, the body's colour does.
+    /// True if its particles show the selection; if all of it is selected, the body's colour does.
     bool shows_selected(const rope::Body& body) const {
         return chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
     }
-    /// Whether the body is marked. A body with its own colour keeps it if its particles show the selection.
+    /// True if the body is marked. A body with its own colour keeps it if its particles show the selection.
     bool marked(const rope::Body& body) const {
         return chosen(body) &&
                (colour_of(world_, body, part_.view.colours()) == BodyColour::ByKind || !shows_selected(body));

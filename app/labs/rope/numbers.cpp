@@ -240,7 +240,7 @@ class PinGraph {
     std::vector<std::size_t> before_;
 };
 
-/// Whether the path between pins that are too far apart leads through two of these particles.
+/// True if the path between pins that are too far apart leads through two of these particles.
 template <class Inside>
 bool is_pulled(const std::vector<OverPulled>& all, Inside inside) {
     return std::ranges::any_of(

@@ -47,7 +47,7 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     return nullptr;
 }
 
-/// Whether the picked particle is pinned, and not only held by a drag.
+/// True if the picked particle is pinned, and not only held by a drag.
 bool is_pinned(const RopePart& part, PickId pick) {
     const auto pane = static_cast<std::size_t>(pick / picks_in_pane),
                particle = static_cast<std::size_t>(pick % picks_in_pane);

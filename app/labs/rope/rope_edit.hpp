@@ -72,7 +72,7 @@ std::vector<std::size_t> held_particles(const RopeRacer& racer);
 bool is_held(const RopeRacer& racer, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
-/// Whether a drag holds particles, here or in a rival's world.
+/// True if a drag holds particles, here or in a rival's world.
 bool holds(const RopePart& part);
 /// Ends the drag, in all worlds.
 void let_go(RopePart& part);

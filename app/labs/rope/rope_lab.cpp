@@ -177,7 +177,7 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
 
 namespace {
 
-/// Whether links are meant to stretch.
+/// True if links are meant to stretch.
 bool stretches(const NamedWorld& world) {
     if (world.settings().compliance > 0.0f) return true;
     return std::ranges::any_of(world.state().links, [](const rope::Link& link) {
@@ -191,7 +191,7 @@ const rope::Body& worst_body(const NamedWorld& world) {
     return *std::ranges::max_element(world.state().bodies, {}, error);
 }
 
-/// Whether a body's link with the largest strain is compressed.
+/// True if a body's link with the largest strain is compressed.
 bool squeezed(const rope::State& state, const rope::Body& body) {
     double worst = 0.0;  // strain
     for (const rope::Link& each : state.links) {
@@ -223,7 +223,7 @@ std::string at_pace(double kept) {
     return ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + real_time;
 }
 
-/// Whether the pins are the two ends of a tie.
+/// True if the pins are the two ends of a tie.
 bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
     return pulled.way.size() == 2 && std::ranges::any_of(state.ties, [&](const rope::Tie& tie) {
                return std::ranges::count(pulled.way, tie.a) == 1 &&

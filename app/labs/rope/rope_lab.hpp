@@ -37,7 +37,7 @@ std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pic
 /// The point by which a whole body is moved: the middle of its pins, which stay where they are put, or of its
 /// particles.
 glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body);
-/// Whether the body moves with a collider.
+/// True if the body moves with a collider.
 bool is_attached(const NamedWorld& world, const rope::Body& body);
 
 /// Extends a box by a collider, except for planes, which are infinite.

@@ -37,10 +37,10 @@ glm::vec3 swing_point(const Swing& swing, double time);
 /// Throws std::invalid_argument if the swing leaves the range of coordinates.
 void require(const Swing& swing);
 
-/// Whether no pin or collider is moving, and no particle moves visibly.
+/// True if no pin or collider is moving, and no particle moves visibly.
 bool at_rest(const RopePart& part);
 
-/// Whether everything is within the bounds of the world.
+/// True if everything is within the bounds of the world.
 bool in_range(const NamedWorld& world);
 
 // A race: the scene with each solver, side by side with one camera. A command that changes the part's own

@@ -159,7 +159,7 @@ class KnifeStroke {
         return true;
     }
 
-    /// Whether a line turns at `at`, by more than a threshold of a cell.
+    /// True if a line turns at `at`, by more than a threshold of a cell.
     static bool bends(glm::vec2 before, glm::vec2 at, glm::vec2 after) {
         constexpr float threshold = 0.01f;
         const glm::vec2 whole = after - before;

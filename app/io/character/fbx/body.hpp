@@ -41,7 +41,7 @@ struct Body {
     glm::dvec3 whole_scale(std::size_t node, const Local& local) const;
 };
 
-/// Whether `node` inherits only part of its parent's scale.
+/// True if `node` inherits only part of its parent's scale.
 bool is_apart(const Node& node);
 
 /// Throws std::runtime_error if there is no skeleton.

@@ -24,7 +24,7 @@ constexpr double max_angle = 0.02 / 57.29577951308232;
 glm::dvec3 toward(const glm::dvec3& value, const glm::dvec3&) {
     return value;
 }
-/// Of the two quaternions for one rotation, the one closer to `other`.
+/// The quaternion for this rotation, `value` or -`value`, that is closer to `other`.
 glm::dquat toward(const glm::dquat& value, const glm::dquat& other) {
     return glm::dot(value, other) < 0.0 ? -value : value;
 }

@@ -43,7 +43,7 @@ struct Node {
     glm::dvec3 rotation_offset{0.0}, rotation_pivot{0.0}, scaling_offset{0.0}, scaling_pivot{0.0};
     humanoid::Placement geometry{};  ///< the transform of its mesh alone
 
-    /// Whether the translation depends on rotation and scale.
+    /// True if the translation depends on rotation and scale.
     bool has_pivots() const;
     Values rest() const;
 };

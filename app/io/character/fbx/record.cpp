@@ -313,7 +313,7 @@ class TextRecords final : public RecordReader {
         ++at_;
         return name;
     }
-    /// Whether no value follows: at `Name:`, a brace, or the end.
+    /// True if no value follows: at `Name:`, a brace, or the end.
     bool at_record() {
         const std::size_t begin = at_;
         const bool has_word = !word().empty();

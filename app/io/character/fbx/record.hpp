@@ -59,7 +59,7 @@ struct File {
 /// O(bytes).
 File read_records(std::string_view bytes);
 
-// For read_records().
+// Helpers of read_records().
 
 /// Bytes of one number of that letter in a binary file, or of one array element; 0: not a number.
 std::size_t number_bytes(char kind);

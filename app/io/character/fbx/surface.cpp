@@ -155,7 +155,7 @@ std::string_view file_name(std::string_view path) {
     return slash == path.npos ? path : path.substr(slash + 1);
 }
 
-/// Whether a texture on this property of a material is its colour.
+/// True if a texture on this property of a material is its colour.
 bool is_colour(std::string_view property) {
     for (const char* part : {"Diffuse", "diffuse", "baseColor", "base_color", "BaseColor"})
         if (property.find(part) != property.npos && property.find("Factor") == property.npos) return true;

@@ -144,7 +144,7 @@ NodeFrame frame_of(const Attachment& attachment, const Wearer& wearer) {
     return frame;
 }
 
-/// Whether a node or a capsule moved farther than is plausible in that time.
+/// True if a node or a capsule moved farther than is plausible in that time.
 bool has_jumped(const Attachments& attachments, const Wearer& wearer,
                 const std::vector<NamedShape>& colliders, double seconds) {
     const double ticks = std::max(1.0, seconds / tick_seconds);
@@ -163,7 +163,7 @@ bool has_jumped(const Attachments& attachments, const Wearer& wearer,
     return false;
 }
 
-/// Whether the world already matches the wearer's pose.
+/// True if the world already matches the wearer's pose.
 bool in_place(const Attachments& attachments, const Wearer& wearer,
               const std::vector<NamedShape>& colliders) {
     constexpr double metres = 1e-4, radians = 1e-4;

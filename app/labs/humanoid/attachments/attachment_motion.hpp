@@ -19,7 +19,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
 /// it out of the body. No time passes. Does nothing if no node moved.
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace);
 
-/// Whether everything moves negligibly slowly, and no gusts blow.
+/// True if everything moves negligibly slowly, and no gusts blow.
 bool at_rest(const Attachments& attachments);
 
 // Attachments of the lab's character, for commands and ticks.

@@ -80,7 +80,7 @@ struct Attachments {
     bool operator==(const Attachments& other) const;
 };
 
-/// What attachments need to know about the character.
+/// The character's data that attachments need.
 struct Wearer {
     const LoadedCharacter& loaded;
     const humanoid::BoneMap& map;
@@ -136,7 +136,7 @@ inline constexpr double flare = 0.7;  ///< a cloth widens by this fraction of it
 
 std::size_t particles_of(AttachmentKind kind, const AttachmentShape& shape);
 
-/// Whether a ball at that point touches or intersects the body at rest.
+/// True if a ball at that point touches or intersects the body at rest.
 bool is_in_body(const Wearer& wearer, const glm::dvec3& point, double radius);
 
 /// The first row of a cloth on the character at rest, centred at `middle` and ordered so that the front of

@@ -249,7 +249,7 @@ void load(Workspace& workspace, const Arguments& given, bool plays) {
     show(workspace, std::move(character), plays);
 }
 
-/// Whether a file has a motion but nothing to draw: a BVH, a VRM animation, or a glTF or FBX without a mesh.
+/// True if a file has a motion but nothing to draw: a BVH, a VRM animation, or a glTF or FBX without a mesh.
 bool is_bare_motion(const std::filesystem::path& file) {
     const std::string ending = lower_case(file.extension().string());
     if (ending == ".bvh" || ending == ".vrma") return true;
@@ -334,7 +334,7 @@ Command space_command(const char* name, const char* title, std::size_t field, co
             .apply = set_space};
 }
 
-/// Whether the T-pose correction would turn anything: it needs a limb of two bones.
+/// True if the T-pose correction would turn anything: it needs a limb of two bones.
 bool has_limbs(const HumanoidPart& part) {
     for (const Bone upper :
          {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg})
@@ -492,7 +492,7 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return name.empty() ? part.playback.clip.value_or(0) : part.loaded->clip_called(name);
 }
 
-/// Whether the file can hold more than the character's own bones.
+/// True if the file can hold more than the character's own bones.
 bool takes_worn(const std::filesystem::path& path) {
     return lower_case(path.extension().string()) != ".bvh";
 }

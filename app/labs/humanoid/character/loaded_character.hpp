@@ -125,7 +125,7 @@ class Loading {
     /// The running work; only while running().
     const Work& work() const { return job_->work; }
     float part() const { return job_->progress.part(); }
-    /// Whether take() would return without waiting.
+    /// True if take() would return without waiting.
     bool done() const { return running() && job_->done; }
     /// Waits for the change and returns it. Throws the work's exception. Nothing runs afterwards.
     Change take();

@@ -61,7 +61,7 @@ struct CuredClip {
 /// Cures the clip's faults that match `cure`, until no more can be cured. Throws std::invalid_argument if
 /// none can.
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
-/// Whether judging the chosen clip takes at most a frame.
+/// True if judging the chosen clip takes at most a frame.
 bool judged_soon(const HumanoidPart& part);
 
 }  // namespace tendril::app

@@ -29,7 +29,7 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
                           state.hold, {.body = options});
 }
 
-// In words and in --state.
+// The hold in words and in --state.
 
 namespace {
 

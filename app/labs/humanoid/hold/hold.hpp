@@ -11,7 +11,7 @@ namespace tendril::app {
 /// The pick id of the object.
 inline constexpr PickId hold_pick = first_effector_pick + 101;
 
-/// Whether the hand holds the object; it then has no target of its own.
+/// True if the hand holds the object; it then has no target of its own.
 inline bool holds(const HumanoidPart& part, humanoid::Effector effector) {
     return part.ik.hold && part.ik.hold->holds(effector);
 }

@@ -18,7 +18,7 @@ std::vector<humanoid::Placement> placed(const HumanoidPart& part, const std::vec
     return placements;
 }
 
-/// Whether hand IK moves the effector.
+/// True if hand IK moves the effector.
 bool is_hand(const IkSettings& ik, humanoid::Effector effector) {
     return ik.hand_ik.on && std::ranges::find(both_hands, effector) != both_hands.end();
 }

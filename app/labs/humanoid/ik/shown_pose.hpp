@@ -58,7 +58,7 @@ std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
 /// Without the stepping feet.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
-/// Whether full-body IK runs before gaze and hands: there is a target or a held object, or a foot has stepped
+/// True if full-body IK runs before gaze and hands: there is a target or a held object, or a foot has stepped
 /// away.
 bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);

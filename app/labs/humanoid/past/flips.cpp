@@ -40,7 +40,7 @@ std::vector<BodyFlip> turned_bones(const HumanoidMoment& was, const HumanoidMome
     return turned;
 }
 
-/// Whether the node belongs to that arm.
+/// True if the node belongs to that arm.
 bool in_arm(const HumanoidPart& part, std::size_t node, std::size_t hand) {
     constexpr Bone arms[2][2]{{Bone::LeftShoulder, Bone::LeftUpperArm},
                               {Bone::RightShoulder, Bone::RightUpperArm}};

@@ -62,7 +62,7 @@ std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const Spring
 /// Call after the pose was set, not reached over time.
 void carry(const std::vector<SpringSetting>& settings, const SpringChains& chains,
            std::vector<rig::Transform> pose, SpringStates& states);
-/// Whether everything moves negligibly slowly.
+/// True if everything moves negligibly slowly.
 bool at_rest(const SpringStates& states);
 
 }  // namespace tendril::app
