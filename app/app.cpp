@@ -24,7 +24,7 @@ constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows by their c
 /// Ticks must continue after a click until a second one is no longer a double click.
 constexpr int double_click_ticks = 20;
 
-/// Whether the key types or deletes a character of a number.
+/// True if the key types or deletes a character of a number.
 bool in_number(Key key) {
     return (key >= Key::Num0 && key <= Key::Num9) || key == Key::Period || key == Key::Comma ||
            key == Key::Minus || key == Key::Delete || key == Key::Backspace;
@@ -107,7 +107,7 @@ void App::start_recording(bool live) {
     workspace_.openings.clear();  // the opening's motion is part of the recorded scene
     Json scene = save_scene(workspace_);
     if (const auto edited = scene.find("stand_ins"); edited != scene.end()) {
-        scene["labs"].update(*edited);  // what was seen is replayed
+        scene["labs"].update(*edited);  // keep the labs as they were on the screen
         scene.erase(edited);
     }
     recorder_.emplace(RecordingStart{.version = version_string,
@@ -136,8 +136,8 @@ void App::tick(const Event* event) {
     update_window();
 }
 
-/// After a click beside a field, or when a field vanishes while it has the keyboard, typed numbers go
-/// nowhere: until the next press, or a key that is in no number.
+/// After a click beside a field, or when a field vanishes while it has the keyboard, typed numbers are
+/// ignored until the next press or the next key that does not belong to a number.
 void App::note_typing(const Event* event) {
     const auto* press = event != nullptr ? std::get_if<MousePress>(event) : nullptr;
     const bool types = ui_.wants_text(), typed = std::exchange(was_typing_, types);
@@ -264,7 +264,7 @@ void App::take_shortcut(Emit& emit) {
     if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
     // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
-    // Nor do numbers typed beside a field, or into one that is no longer there.
+    // Ignore numbers typed beside a field, or into one that has vanished.
     if (types_nowhere_ && !chord.ctrl && !chord.alt && in_number(chord.key))
         return workspace_.toast("No field has the keyboard. Click one, or click the view to use shortcuts.");
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
@@ -285,12 +285,13 @@ void App::run_emitted(Emit& emit, From from) {
             take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
-            if (command.name == "undo" || command.name == "redo") {  // there is none: no fault
+            if (command.name == "undo" ||
+                command.name == "redo") {  // nothing to undo or redo is not an error
                 workspace_.toast(capitalised(refusal.reason()) + ".");
                 continue;
             }
             refuse(refusal.reason());
-            // Only the lab's own refusals become incidents, not those of other files.
+            // Only the lab's own refusals become incidents.
             if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }

@@ -58,14 +58,14 @@ class App final : public Stage {
     void draw(bool dither = true);
     /// The picture once the panels have settled, without dither, which would enlarge the file.
     Image screenshot();
-    /// Whether the next tick may change the picture without an event.
+    /// True if the next tick may change the picture without an event.
     bool needs_ticks() const;
     bool quit() const { return workspace_.ui.quit; }
-    /// Whether it replays a recording made in a window.
+    /// True if it replays a recording made in a window.
     bool replays() const { return replays_; }
-    /// Whether it is time for a VideoEnd.
+    /// True if it is time for a VideoEnd.
     bool video_ended() const;
-    /// Whether the user is dragging something.
+    /// True if the user is dragging something.
     bool busy() const;
     int draw_calls() const { return renderer_.draw_calls(); }
 
@@ -94,7 +94,7 @@ class App final : public Stage {
     void run_emitted(Emit& emit, From from);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
     void note_refusal(const std::string& why);
-    /// An opening as it was when it ended.
+    /// An opening in the state where it ended.
     struct Opening {
         Document document, saved;
         Rewind rewind;
@@ -126,7 +126,7 @@ class App final : public Stage {
     /// The open lab's card, null unless shown.
     const Card* shown_card() const;
     void watch_shown_card();
-    /// Whether the next tick must check the card's steps.
+    /// True if the next tick must check the card's steps.
     bool card_is_due() const;
     Json card_state() const;
     /// The lab's state, with camera and time.

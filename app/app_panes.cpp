@@ -63,7 +63,7 @@ void App::draw_panes() {
     show_pane_titles(panes_, lab().panes(workspace_), colours, layout_.scale, true);
 }
 
-// The open lab's card of things to try: which of its steps are done.
+// The open lab's card of things to try.
 
 const Card* App::shown_card() const {
     const std::span<const Card> cards = cards_.of(workspace_.lab);

@@ -22,7 +22,7 @@ bool is_move(const Event& event) {
     return std::holds_alternative<MouseMove>(event);
 }
 
-/// While it exists, exit() keeps unsaved work: Xlib calls that when the display is lost.
+/// While it exists, exit() keeps unsaved work: Xlib calls exit() when the display is lost.
 class KeptAtExit {
   public:
     KeptAtExit(Autosave& autosave, Workspace& workspace) {
@@ -152,7 +152,7 @@ bool LiveLoop::take_ticks(Player& player) {
     return ticked;
 }
 
-/// A stall of any length counts as a quarter of the last second.
+/// Any stall counts as a quarter of the last second, whatever its length.
 void LiveLoop::note_pace(double elapsed, double dropped) {
     if (!(elapsed > 0.0)) return;
     double& pace = pace_of(app_.workspace().runtimes).kept;

@@ -57,7 +57,7 @@ Outputs check_outputs(const SessionOptions& options) {
         check_writable(path);
         outputs.own(path, file_stamp(path));
     }
-    outputs.in_window = !options.headless;  // refusals so far cannot be asked for again
+    outputs.in_window = !options.headless;  // refusals so far cannot be repeated
     return outputs;
 }
 
@@ -71,7 +71,7 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
-/// Nothing to undo or to save: the file is where the session starts. False if a lab of it could not be read.
+/// Leaves nothing to undo or save: the session starts here. False if a lab of the file could not be read.
 bool open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {
@@ -83,11 +83,12 @@ bool open_given(App& app, const std::string& file) {
     app.commands().find("file.open")->finish(workspace);
     workspace.saved = workspace.document;
     workspace.history.clear();
-    if (workspace.beginnings == beginnings) workspace.start_anew();  // else the file has a past of its own
+    if (workspace.beginnings == beginnings)
+        workspace.start_anew();  // otherwise the file brought its own past
     return true;
 }
 
-/// False if it lacks what it could not read.
+/// False if part of it could not be read.
 bool open_scene(App& app, const SessionOptions& options) {
     const bool whole = options.scene.empty() || open_given(app, options.scene);
     if (!options.lab.empty()) {
@@ -102,7 +103,7 @@ bool open_scene(App& app, const SessionOptions& options) {
     return whole;
 }
 
-/// The start is the first line of its recording.
+/// The recording's first line holds the start.
 void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
     try {
         app.start_from(start);
@@ -112,7 +113,7 @@ void start_recorded(App& app, const SessionOptions& options, const RecordingStar
     }
 }
 
-/// Takes another name if another program has put a file there meanwhile: the session cannot be repeated.
+/// Uses another name if another program has created that file meanwhile: the session cannot be repeated.
 void write_recording(App& app, const std::filesystem::path& wanted) {
     const auto [path, refusal] = app.workspace().writes().place_at_end(wanted, OutputKind::Recording);
     write_file_atomically(path, app.recording());
@@ -181,7 +182,7 @@ int run(const SessionOptions& options) {
     return exit_code;
 }
 
-/// Whether the user has already chosen the lab's setting that the command changes.
+/// True if the user has already chosen the lab's setting that the command changes.
 bool is_chosen(const Lab& lab, const Settings& settings, const std::string& command) {
     const std::vector<LabSetting> all = lab.all_settings();
     return std::any_of(all.begin(), all.end(), [&](const LabSetting& each) {

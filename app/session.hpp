@@ -1,4 +1,4 @@
-// One run of the program, from its arguments to its exit code, with the view that it opens with.
+// One run of the program, from its arguments to its exit code, and the scene that a window opens with.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@ struct SessionOptions {
     std::string state;
     std::string record;
     bool config = true;
-    bool force = false;  ///< replaces files that exist, as Outputs says
+    bool force = false;  ///< replaces existing files, as Outputs describes
 };
 
 /// Returns 0 on success; 1 if a script's expectation failed or one of its commands was refused; 2 if
@@ -35,9 +35,9 @@ int run_session(const SessionOptions& options);
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the session cleanly, with all outputs written.
 void end_session_on_signals();
-/// Makes them end the program at once, for commands that write all their output at their end.
+/// Makes them end the program at once, for commands that write all output at the end.
 void end_at_once_on_signals();
-/// True after a signal that ends the session, for code other than a session.
+/// True after a signal to end the session, for code outside a session.
 const std::atomic<bool>& session_ending();
 
 // Runs the program by its arguments: a session with a window or off screen, a list, or a subcommand.
@@ -46,9 +46,9 @@ const std::atomic<bool>& session_ending();
 /// or 2 for an invalid command line. Errors are printed to stderr, in one line.
 int run_command_line(const std::vector<std::string>& words);
 
-// The view that a window opens with: a moving scene, and the cards of things to try.
+// The scene that a window opens with: it moves, and has cards of things to try.
 
-/// Whether the session has a window and was given no scene, lab or script.
+/// True if the session has a window and was given no scene, lab or script.
 bool opens_alive(const SessionOptions& options);
 /// Sets up every lab's opening as a new scene: nothing to undo, nothing to save. The openings move by
 /// themselves until the user takes over (Lab::calm()), which does not mark the scene as modified.

@@ -84,7 +84,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
     if (text_) find_room();
 }
 
-/// Finds room for the legend where nothing will move under it later.
+/// Finds a corner for the legend that nothing moves into later.
 void VideoTake::find_room() {
     constexpr int max_looks = 16;
     Workspace ahead = workspace_;

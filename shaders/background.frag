@@ -1,11 +1,11 @@
 #version 330 core
-// A soft vertical gradient. Eight bits a channel can't hold one this soft without bands, so each pixel is moved by less
-// than one step, in a fixed pattern: interleaved gradient noise (Jimenez, 2014).
+// A soft vertical gradient. Eight bits per channel show bands in it, so each pixel is shifted by less than one step, in
+// a fixed pattern: interleaved gradient noise (Jimenez, 2014).
 
 uniform vec3 top;
 uniform vec3 bottom;
 uniform float height;
-uniform float dither;  // 1, or 0 for pictures that are to be small as files
+uniform float dither;  // 1; 0 for pictures that must be small files
 
 out vec4 colour;
 

@@ -1,5 +1,5 @@
 #version 330 core
-// A large square of ground around what the camera looks at.
+// A large square of ground around the camera's target.
 
 uniform mat4 to_clip;
 uniform vec3 centre;

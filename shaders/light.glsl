@@ -1,9 +1,9 @@
-// The light of the scene, for whatever solid is drawn: a key light at the upper left of whoever looks, the sky above, a
-// darker rim that sets things off from what is behind.
+// The light on all solids: a key light from the upper left of the viewer, the sky above, and a darker rim that
+// separates an object from its background.
 //
-// The normal is seen along the line of sight: x right, y up, z towards the eye.
+// The normal is relative to the line of sight: x right, y up, z towards the eye.
 
-uniform vec3 sky;  // world up, seen by the camera
+uniform vec3 sky;  // world up in camera space
 
 vec3 lit(vec4 premultiplied, vec3 normal) {
     const vec3 key = vec3(-0.451, 0.621, 0.641);

@@ -1,5 +1,5 @@
 #version 330 core
-// One pixel of a triangle, which has two sides.
+// One pixel of a two-sided triangle.
 
 in vec3 facing;
 in vec3 front_colour;
@@ -13,7 +13,7 @@ out vec4 colour;
 
 void main() {
     vec3 normal = gl_FrontFacing ? facing : -facing;
-    // Where flat triangles stand for a round surface, its normal looks away a little before they do.
+    // Flat triangles approximate a round surface: its normal turns away slightly before they do.
     normal = normalize(vec3(normal.xy, max(normal.z, 0.0)) + vec3(0.0, 0.0, 1e-6));
     vec4 surface = vec4(gl_FrontFacing ? front_colour : back_colour, 1.0);
     colour = vec4(min(lit(surface, normal), 1.0), opacity);

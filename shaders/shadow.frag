@@ -1,5 +1,5 @@
 #version 330 core
-// A soft contact shadow: what part of the sky the stroke hides from this point of the ground, roughly.
+// A soft contact shadow: roughly the part of the sky that the stroke hides from this point of the ground.
 
 in vec2 at;
 flat in float length_;
@@ -13,7 +13,7 @@ void main() {
     float t = length_ > 1e-6 ? clamp(at.x / length_, 0.0, 1.0) : 0.0;
     float height = mix(above.x, above.y, t), radius = mix(above.z, above.w, t);
     float clearance = height - radius;
-    // Spreads with height and pales as it does.
+    // Wider and paler with height.
     float reach = 2.6 * radius + 0.8 * clearance;
     float away = length(at - vec2(t * length_, 0.0)) / reach;
     float soft = max(1.0 - away * away, 0.0);

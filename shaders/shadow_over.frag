@@ -1,5 +1,5 @@
 #version 330 core
-// Lays the picture of all shadows over the ground: blending takes the alpha as what to darken by.
+// Blends the shadows' buffer over the ground: alpha is how much to darken it.
 
 in vec2 at;
 

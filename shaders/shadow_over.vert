@@ -1,5 +1,5 @@
 #version 330 core
-// The part of the viewport in which there are shadows.
+// The part of the viewport that has shadows.
 
 uniform vec4 part;  // of the viewport, 0 to 1: left, bottom, right, top
 

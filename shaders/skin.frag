@@ -1,5 +1,5 @@
 #version 330 core
-// One pixel of a skin. Seen through, it is clearest where it faces the eye, and its outline stays.
+// One pixel of a skin. A transparent skin is clearest where it faces the eye; its outline stays visible.
 
 in vec3 facing;
 in vec2 picture_at;
@@ -7,7 +7,7 @@ in vec4 own_colour;
 
 uniform sampler2D picture;
 uniform vec4 part_colour;
-uniform float cutoff;   // of the alpha: below, there is nothing; 0: what has an alpha is solid
+uniform float cutoff;   // discard pixels with a lower alpha; 0: keep all that have any
 uniform float opacity;  // 1: solid
 
 out vec4 colour;
@@ -17,7 +17,7 @@ out vec4 colour;
 void main() {
     vec4 surface = texture(picture, picture_at) * part_colour * own_colour;
     if (surface.a < cutoff) discard;
-    // Skins are seen from outside: a normal that looks away is that of the other side.
+    // Skins are seen from outside: a normal that faces away belongs to the other side.
     vec3 normal = normalize(facing + vec3(0.0, 0.0, 1e-6));
     normal = normalize(vec3(normal.xy, abs(normal.z)) + vec3(0.0, 0.0, 1e-6));
     float rim = 1.0 - normal.z;

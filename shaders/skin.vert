@@ -1,5 +1,5 @@
 #version 330 core
-// One corner of a triangle of a skin: linear blend skinning by four joints at the most.
+// One corner of a skin's triangle: linear blend skinning by at most four joints.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -8,7 +8,7 @@ layout(location = 3) in vec4 tint;
 layout(location = 4) in ivec4 joints;
 layout(location = 5) in vec4 weights;
 
-uniform samplerBuffer matrices;  // three rows to a joint: from where the skin was bound to where the joint is now
+uniform samplerBuffer matrices;  // three rows per joint: from the bind pose to the joint's present pose
 
 #include "surface.glsl"
 

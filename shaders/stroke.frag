@@ -1,5 +1,5 @@
 #version 330 core
-// One pixel of one stroke: how much of it is covered, which way the surface there faces, how deep it lies.
+// One pixel of one stroke: its coverage, its surface's normal and its depth.
 
 in vec2 at;
 flat in vec4 outline;
@@ -18,14 +18,14 @@ out vec4 colour;
 
 #include "light.glsl"
 
-// Where on the axis the circle is whose edge is nearest: back along the normal of the flank, which leans by the slope.
+// The point on the axis whose circle has the nearest edge: back along the flank's normal, which has this slope.
 float nearest_circle() { return clamp(at.x - abs(at.y) * outline.w, 0.0, outline.x); }
 
-// Of all the balls along the axis, the one whose surface the line of sight meets first; 0 at a, 1 at b.
+// The ball along the axis whose surface the line of sight meets first; 0 at a, 1 at b.
 //
-// Let c(t) = (L t, 0, n t) be their centres, n being how much nearer to the eye b is, and r(t) = R + k t their radii. The
-// surface they sweep is where |Q - c(t)| = r(t), and where moving on along t changes nothing. For Q on the line of sight
-// through (x, y), taking z out of the two leaves
+// Let c(t) = (L t, 0, n t) be the balls' centres, where n is how much nearer to the eye b is, and r(t) = R + k t their
+// radii. Their envelope is where |Q - c(t)| = r(t) and the derivative of that by t is 0. For Q on the line of sight
+// through (x, y), eliminating z gives
 //     t = (e + n sqrt((e^2 - g (x^2 + y^2 - R^2)) / m)) / g,   e = L x + R k,  g = L^2 - k^2,  m = g + n^2.
 float nearest_ball() {
     float e = solid.x * at.x + outline.y * solid.y;
@@ -36,7 +36,7 @@ float nearest_ball() {
 
 void main() {
     bool is_edge = edge.w > 0.0;
-    // Edges are cut off at their ends, so that where one goes on in the next no pixel is covered twice.
+    // Edges are cut at their ends, so that where one continues in the next no pixel is covered twice.
     float before = at.x - mitre.x * at.y, beyond = at.x - outline.x - mitre.y * at.y;
     if (is_edge && (before < -0.002 || beyond > 0.002)) discard;
 
@@ -52,7 +52,7 @@ void main() {
     vec2 across = (at - vec2(t * solid.x, 0.0)) / radius;
     float squared = dot(across, across);
     float facing = sqrt(max(1.0 - squared, 0.0));
-    across *= inversesqrt(max(squared, 1.0));  // half a pixel beyond the edge it faces as it does at the edge
+    across *= inversesqrt(max(squared, 1.0));  // the half pixel beyond the edge has the edge's normal
     vec2 along = style_and_axis.zw;
     vec3 normal = vec3(along * across.x + vec2(-along.y, along.x) * across.y, facing);
     float is_lit = style_and_axis.x;

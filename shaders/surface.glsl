@@ -1,8 +1,8 @@
-// Where a corner of a triangle is, and which way its surface faces, for whatever is made of triangles. What is near the
-// eye is drawn as strokes are: in pixels of the whole framebuffer, lit as the line of sight meets it.
+// The position of a triangle's corner and its surface's normal, for everything made of triangles. Matches the drawing
+// of strokes: pixels of the whole framebuffer, light along the line of sight.
 
 uniform vec3 eye;
-uniform mat4 to_eye_space;  // a turn only: x right, y up, z along the viewing direction
+uniform mat4 to_eye_space;  // rotation only: x right, y up, z along the viewing direction
 uniform vec2 scale;
 uniform vec2 shift;
 uniform vec2 to_clip_depth;
@@ -13,7 +13,7 @@ vec4 on_screen(vec3 at) {
     return vec4(scale * at.xy + shift * away, to_clip_depth.x * at.z + to_clip_depth.y, away);
 }
 
-// The normal, turned by what turns the line of sight through this point into the middle one.
+// The normal, rotated by the rotation that takes the line of sight through this point to the view axis.
 vec3 seen_normal(vec3 at, vec3 normal) {
     vec3 turned = mat3(to_eye_space) * normal;
     vec3 sight = mix(at / max(length(at), 1e-30), vec3(0.0, 0.0, 1.0), orthographic);

@@ -1,5 +1,5 @@
-# The shaders, the fonts and the labs' cards and presets, as bytes inside the program: it then runs from anywhere. The assembler's .incbin takes the
-# files as they are, which is as fast for a font as for a line of text.
+# Embeds the shaders, the fonts and the labs' cards and presets in the program, which then runs from any folder. The
+# assembler's .incbin copies the files unchanged, as fast for a font as for a line of text.
 find_path(TENDRIL_FONT_FOLDER Roboto-Regular.ttf
     PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/roboto/unhinted
           /usr/share/fonts/truetype/roboto
@@ -30,7 +30,7 @@ foreach(path IN LISTS asset_files)
     string(APPEND asset_table "    {\"${name}\", ${symbol}_begin, ${symbol}_end},\n")
 endforeach()
 configure_file(assets.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp @ONLY)
-# The compiler can't see through .incbin, so say what the object depends on.
+# The compiler cannot see through .incbin, so state the object's dependencies.
 set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/assets.cpp PROPERTIES OBJECT_DEPENDS "${asset_files}")
 
 add_library(tendril_assets STATIC ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp)

@@ -1,5 +1,5 @@
-# glad 2 writes the loader for GL 3.3 core when the build is configured; --reproducible takes the
-# specification that it carries, so no network is needed.
+# glad 2 generates the loader for GL 3.3 core at configure time; --reproducible uses its own copy of the specification,
+# so no network is needed.
 find_program(TENDRIL_GLAD glad)
 mark_as_advanced(TENDRIL_GLAD)
 tendril_require(TENDRIL_GLAD "the generator glad 2" python3-glad)
@@ -14,7 +14,7 @@ if(NOT EXISTS ${glad_folder}/src/gl.c)
     endif()
 endif()
 
-# The generated file is C that is valid C++ too, and the project has no other C.
+# The generated file is valid as C++ too, and the project has no other C.
 set_source_files_properties(${glad_folder}/src/gl.c PROPERTIES LANGUAGE CXX)
 add_library(tendril_glad STATIC ${glad_folder}/src/gl.c)
 target_include_directories(tendril_glad SYSTEM PUBLIC ${glad_folder}/include)

@@ -1,8 +1,8 @@
-# Dear ImGui and its OpenGL 3 backend. The backend is compiled here with glad as its loader: the loader it brings
-# along opens libGL by itself and so fails where the context comes from OSMesa.
+# Dear ImGui and its OpenGL 3 backend. The backend is compiled here with glad as its loader: its own loader opens libGL
+# itself, which fails if the context comes from OSMesa.
 #
-# Debian packages the library and, as an example among its documents, the backend's source. Where there is no package,
-# TENDRIL_IMGUI_DIR names an unpacked release, and both are compiled from there.
+# Debian packages the library, with the backend's source among its examples. Without a package, TENDRIL_IMGUI_DIR names
+# an unpacked release, and both are compiled from there.
 set(TENDRIL_IMGUI_DIR "" CACHE PATH "A Dear ImGui source folder to compile instead of the system's package")
 
 if(TENDRIL_IMGUI_DIR)

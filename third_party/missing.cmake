@@ -1,4 +1,4 @@
-# One way to say that something is not installed, and what to type.
+# Reports a missing dependency and the command that installs it.
 function(tendril_missing what package)
     message(FATAL_ERROR
         "Tendril needs ${what}, which was not found.\n"

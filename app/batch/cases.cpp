@@ -184,7 +184,7 @@ double argument_number(std::string_view text, const std::string& option) {
     return value;
 }
 
-/// A name, and the numbers after it between separators. `form` is for messages: "JOINT=VALUE".
+/// Splits off a name and the numbers after it. `form` is for messages: "JOINT=VALUE".
 std::pair<std::string, std::vector<double>> named_numbers(const std::string& argument,
                                                           const std::string& option, const char* form,
                                                           char separator) {
@@ -332,7 +332,7 @@ void override_linkage_goals(const Json& goals, LinkageCase& to) {
     const Json none = Json::object();
     const Json &drivers = goals.contains("drivers") ? goals["drivers"] : none,
                &targets = goals.contains("targets") ? goals["targets"] : none;
-    // Erase replaced ones first, since their number of values may differ.
+    // Erase replaced drivers first: they may have another number of values.
     std::erase_if(to.drivers, [&](const auto& each) { return drivers.contains(each.first); });
     std::erase_if(to.targets, [&](const auto& each) { return targets.contains(each.first); });
     read_drivers(drivers, "--drive ", to);

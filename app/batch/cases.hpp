@@ -30,9 +30,9 @@ namespace tendril::app {
 ///    "drivers": {"crank": {"from": 0, "to": 360, "step": 15}}}
 ///   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
 ///
-/// "linkage" is a preset, with "lengths" that differ from it, or a linkage as in a scene file. A driver's
+/// "linkage" is a preset, with "lengths" that override its own, or a linkage as in a scene file. A driver's
 /// value is a number (degrees or metres), a list of numbers or a range; a target's is a point or a list. A
-/// list gives a row per element, each from the pose before; all lists of a case are equally long.
+/// list gives one row per element, each solved from the pose before; a case's lists are equally long.
 struct LinkageCase {
     LinkagePart part;
     /// Keyed by joint and point names; radians or metres. One value, or one for each row.
@@ -56,7 +56,7 @@ void override_linkage_goals(const Json& goals, LinkageCase& to);
 /// Parses goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
 Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets);
-/// A row as JSON: as in --state, with additional members of a solve.
+/// A row as JSON: as in --state, with the additional members of a solve.
 Json linkage_row_json(const LinkagePart& part);
 
 struct Case {

@@ -27,8 +27,8 @@ std::string_view head(std::string_view text, std::size_t count) {
 using namespace std::chrono_literals;
 
 constexpr auto first_delay = 1000ms;    // before the first report
-constexpr auto terminal_pause = 100ms;  // between two reports on a terminal
-constexpr auto line_pause = 5000ms;     // between two lines
+constexpr auto terminal_pause = 100ms;  // between reports on a terminal
+constexpr auto line_pause = 5000ms;     // between lines elsewhere
 
 }  // namespace
 

@@ -1,7 +1,7 @@
-// The comparison of A. Aristidou and J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics
-// problem", Graphical Models 73(5), 2011, repeated on this machine: a chain of ten free joints, so ten bones,
-// reachable and unreachable targets, one tolerance for all. Here each target starts from a random pose, the
-// same for every solver.
+// Repeats the comparison of A. Aristidou and J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse
+// Kinematics problem", Graphical Models 73(5), 2011, on this machine: a chain of ten free joints, hence ten
+// bones, reachable and unreachable targets, one tolerance for all. Here each target starts from a random
+// pose, the same for every solver.
 //
 // This file only measures, and depends only on the library; the program and a benchmark print the rows.
 #pragma once
@@ -30,7 +30,7 @@ struct PaperTargets {
     std::vector<glm::vec3> starts;  ///< paper_bones + 1 joints for each target
 };
 
-/// At 0.05 to 0.95 and at 1.05 to 2 times the reach; the same on every platform.
+/// Targets at 0.05 to 0.95 and at 1.05 to 2 times the reach; the same on every platform.
 PaperTargets reachable_targets();
 PaperTargets unreachable_targets();
 

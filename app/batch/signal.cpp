@@ -87,7 +87,7 @@ void print_rates(const Filters& filters, const TimedSamples& rows, const std::at
                  decimal(comparison.difference).c_str(), decimal(comparison.at + begin).c_str());
 }
 
-/// The given filter of this kind, from which the fit starts; null if there is none.
+/// The given filter of this kind, where the fit starts; null if there is none.
 const signal::Filter* initial_filter(const Filters& filters, const signal::Kind& kind) {
     const auto found = std::find_if(filters.begin(), filters.end(), [&](const signal::Filter& filter) {
         return &signal::kind_of(filter) == &kind;

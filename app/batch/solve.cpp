@@ -29,7 +29,7 @@ struct Row {
     const std::vector<glm::vec3>& joints;
     std::optional<ik::CurveReport> curve{};  ///< the curve report, if the case places a chain along a curve
     const LinkageCase* linkage = nullptr;    ///< the linkage in its present pose, if the case is one
-    std::string reason{};                    ///< for InvalidInput: what the library refuses, and where
+    std::string reason{};                    ///< for InvalidInput: the invalid value and its place
 
     const char* solver() const { return linkage ? "linkage" : curve ? "curve" : ik::name(method); }
     /// "solver", "status", "iterations", "residual" and more.
@@ -64,7 +64,7 @@ class JsonRows final : public Rows {
             json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
                              {"past_end", number(row.curve->past_end)}};
         if (row.asked.normal) json["off_plane"] = number(row.report.off_plane);
-        json.erase("ran");  // only in the table: scripts rely on the JSON keys
+        json.erase("ran");  // only in the table; the JSON's keys must not change for scripts
         json["microseconds"] = microseconds_json(row.microseconds);
         if (!row.linkage) {
             Json positions = Json::array();
@@ -146,7 +146,7 @@ struct Survey {
 };
 
 /// Calls `take` with each case of a list, or with the single case of an object: a linkage, or a scene with
-/// one. The goals from the arguments replace the linkages' own.
+/// one. Goals given as arguments replace the linkages' own.
 void read_all(std::string_view text, const Json& goals, const std::function<bool(Case&, double)>& take) {
     const auto with_goals = [&](Case read, double done) {
         if (!goals.empty() && !read.linkage)
@@ -192,7 +192,7 @@ Survey check(std::string_view text, const Json& goals, Progress& progress, const
     return survey;
 }
 
-/// The residual is the distance by which the tip misses the curve's end.
+/// The residual is the distance from the tip to the curve's end.
 Row place(const Case& asked, std::vector<glm::vec3>& joints) {
     joints = asked.start;
     ik::State state(asked.lengths.size());

@@ -18,9 +18,9 @@ enum class RowFormat { Table, Csv, Json };
 
 struct SolveOptions {
     std::string cases;                          ///< path: a list of cases, one linkage, or a scene with one
-    std::vector<ik::Method> methods;            ///< each case is solved by each of them
-    std::optional<int> max_iterations;          ///< 1 to 1 000 000; if left out 100, or 1000 for a linkage
-    std::optional<float> tolerance;             ///< metres; 1e-3 of the reach if left out
+    std::vector<ik::Method> methods;            ///< each solves every case
+    std::optional<int> max_iterations;          ///< 1 to 1 000 000; default 100, or 1000 for a linkage
+    std::optional<float> tolerance;             ///< metres; default 1e-3 of the reach
     std::vector<std::string> drivers, targets;  ///< for linkages, as in cases.hpp
     RowFormat format = RowFormat::Table;
 };
@@ -42,7 +42,7 @@ extern const char* const solve_help;
 /// lab has no code, or the output cannot be written.
 void print_code(const std::string& scene);
 
-// `tendril trace`: finds the faults in a chain's motion that an engine recorded.
+// `tendril trace`: finds the faults in a chain's motion recorded by an engine.
 
 struct TraceOptions {
     std::string file;  ///< path; "-" for standard input
@@ -54,7 +54,7 @@ struct TraceOptions {
 /// output cannot be written.
 std::size_t run_trace(const TraceOptions& options);
 
-/// For --help.
+/// The help text.
 extern const char* const trace_help;
 
 // `tendril signal`: runs filters over the samples of a file, or fits them.
@@ -98,13 +98,13 @@ struct BakeOptions {
     std::string out;              ///< path; empty: FILE_baked beside the file
     bool force = false;           ///< replaces glTF, GLB and BVH files that exist
 };
-/// The names of the grounds.
+/// Names of the grounds.
 std::vector<std::string> bake_grounds();
 /// Writes the clip, reads it back and prints the difference. Throws std::runtime_error if the file cannot be
 /// read, has no such clip, lacks the legs that a ground needs, or cannot be written.
 void run_bake(const BakeOptions& options);
 
-/// For --help.
+/// The help text.
 extern const char* const lint_help;
 extern const char* const bake_help;
 
@@ -114,7 +114,7 @@ extern const char* const bake_help;
 /// std::runtime_error if the output cannot be written.
 void print_paper(bool csv, const std::atomic<bool>& ending);
 
-/// For --help.
+/// The help text.
 extern const char* const paper_help;
 
 }  // namespace tendril::app

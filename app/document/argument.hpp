@@ -1,5 +1,4 @@
-// Arguments of commands: how they are declared, how a command reads them, and those that the commands for
-// pictures and videos share.
+// Command arguments: how they are declared and read, and the set that picture and video commands share.
 #pragma once
 
 #include <cstddef>
@@ -55,7 +54,7 @@ Argument text_argument(const char* name, bool required, std::string help);
 Argument point_argument(const char* name, bool required, const char* help);
 /// A 0-based index below `count`.
 Argument index_argument(const char* name, bool required, const char* help, std::size_t count);
-/// The same argument; the palette offers the values that `known` returns.
+/// The same argument, with the values of `known` offered in the palette.
 Argument offering(Argument argument, std::function<std::vector<std::string>(const Workspace&)> known);
 /// "0", "1", ... up to `count` - 1.
 std::vector<std::string> places(std::size_t count);
@@ -86,9 +85,9 @@ class Arguments {
 std::vector<Argument> picture_arguments(std::vector<Argument> first = {});
 void set_look(const Arguments& given, PictureLook& look);
 
-/// An unused name beside the scene's file, or in the working directory: "arm-1.png"; with `what`, for a
-/// picture of something other than the view: "arm-race-1.png". Throws Refused outside a window, where a
-/// script has to give the path.
+/// An unused name beside the scene's file, or in the working directory: "arm-1.png", or "arm-race-1.png" with
+/// `what` for a picture of something other than the view. Throws Refused outside a window, where a script has
+/// to give the path.
 std::filesystem::path new_file(const Workspace& workspace, const std::string& what = {},
                                const char* extension = ".png");
 

@@ -110,7 +110,7 @@ class AtomicFile::Beside {
         require(file_.copy_permissions(file) && file_.sync());
         require(replace_file(name_, file));
         moved_ = true;
-        file_.close();  // until here its lock showed that it is not torn
+        file_.close();  // its lock kept it from being deleted as a leftover until here
     }
 
   private:
@@ -164,7 +164,7 @@ void remove_torn_files(const fs::path& folder) {
     for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
         const std::string name = each->path().filename().string();
         if (!name.starts_with(torn_start) || !name.ends_with(torn_end)) continue;
-        // Its writer holds the lock as long as it runs.
+        // Its writer holds the lock while it runs.
         SystemFile file = SystemFile::open(each->path());
         std::error_code ignored;
         if (file && file.try_lock()) fs::remove(each->path(), ignored);

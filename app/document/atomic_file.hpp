@@ -1,6 +1,6 @@
 // Atomic file writes: a temporary file in the same folder is written, synced to disk and renamed over the old
-// one, so a crash leaves either the old file or the new one. The only way this program writes files, and how
-// its messages give their paths.
+// one, so a crash leaves either the old file or the new one. The program writes files in no other way. Also
+// formats paths for messages.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +50,8 @@ void check_writable(const std::filesystem::path& path);
 
 inline constexpr std::size_t longest_shown_path = 100;
 
-/// The whole path, so that the file can be found: "~/pictures/tendril-1.png". Folders in the middle of a long
-/// one become "..."; the name is always whole.
+/// The path for display: "~/pictures/tendril-1.png". A long one loses folders in the middle ("..."), never
+/// its file name.
 std::string shown_path(const std::filesystem::path& path);
 
 /// "Written: ~/pictures/tendril-1.png"

@@ -28,7 +28,7 @@ fs::path lock_of(const fs::path& folder, const std::string& stem) {
     return folder / std::string(name_start).append(stem).append(".lock");
 }
 
-/// Whether the file is an autosave whose program has ended: "autosave-12.json", "autosave-12_2.json" (a
+/// True if the file is an autosave whose program has ended: "autosave-12.json", "autosave-12_2.json" (a
 /// second program with that process ID) or "autosave-12.1.json" (recovered work).
 bool is_left_behind(const fs::path& file) {
     const std::string name = file.filename().string();

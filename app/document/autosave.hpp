@@ -35,9 +35,9 @@ class Autosave {
     static std::vector<std::filesystem::path> left_behind(const std::filesystem::path& folder);
     /// The title of such a file in the window: the scene's file name and the time of writing.
     static std::string title(const std::filesystem::path& file);
-    /// Opens such a file as unsaved changes to its original scene file (the extra member "path"), or to none.
-    /// A lab that cannot be read stays in the file, and a toast says so. Throws as load_scene_file does. The
-    /// autosave becomes this program's, so that the work in it stays safe until it is saved.
+    /// Opens such a file as unsaved changes to its original scene file (the extra member "path"), if it had
+    /// one. A lab that cannot be read stays in the file, and a toast says so. Throws as load_scene_file does.
+    /// The autosave becomes this program's, so the work in it stays safe until it is saved.
     static void recover(Workspace& workspace, const std::filesystem::path& file);
 
   private:

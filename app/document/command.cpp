@@ -21,8 +21,8 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
-/// What the scene's file has of a lab that could not be read is saved again until the lab is edited; from
-/// then on saving asks.
+/// A lab that could not be read keeps its JSON from the scene's file until it is edited; from then on, saving
+/// asks.
 void replace_unread(Workspace& workspace, const Document& before) {
     const Document edited_document = workspace.document;
     for (const auto& [lab, part] : edited_document.parts()) {
@@ -59,7 +59,7 @@ void check_point(const Json& value, ArgumentType type, const auto& refuse) {
     }
 }
 
-/// Whether the coordinates have unit length, within the rounding of hand-written decimals.
+/// True if the coordinates have unit length, within the rounding of hand-written decimals.
 bool is_unit(const Json& value) {
     double squares = 0.0;
     for (const auto& coordinate : value) {
@@ -136,7 +136,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        if (beginnings == workspace.beginnings) {  // else the command has made the past itself
+        if (beginnings == workspace.beginnings) {  // otherwise the command set up the history itself
             replace_unread(workspace, before);
             const auto& part = before.parts().at(workspace.lab);
             workspace.discard_later(part);

@@ -30,10 +30,10 @@ struct Command {
     std::vector<Argument> arguments;
     std::string help;
     Effect effect = Effect::Edit;
-    /// Whatever it throws becomes a refusal that begins with the command's name.
+    /// Any exception becomes a refusal that begins with the command's name.
     std::function<void(Workspace&, const Arguments&)> apply{};
-    /// Completes at once the work that apply() only starts and ticks continue (Lab::work). For scripts, so
-    /// that the next line finds it done.
+    /// Finishes at once the work that apply() starts and ticks continue (Lab::work), for a script's next
+    /// line.
     std::function<void(Workspace&)> finish{};
     std::string lab{};  ///< set by the table; empty: the program's own
 };

@@ -14,7 +14,7 @@
 
 namespace tendril::app {
 
-/// Of the elements of some lists, for Part::bytes().
+/// Bytes of the elements of some lists, for Part::bytes().
 std::size_t bytes_in(const auto&... lists) {
     return ((lists.size() * sizeof(lists[0])) + ... + 0);
 }
@@ -28,29 +28,29 @@ class Part {
     /// Restores what save() wrote, bit for bit. Throws std::runtime_error that begins with the JSON path,
     /// under `where`.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
-    /// Converts the part of a scene file of an older `version` to what save() writes now, before load(). The
-    /// file may be broken: leave that for load() to refuse.
+    /// Converts the part of a scene file of an older `version` to the present format, before load(). The JSON
+    /// may be invalid: leave that for load() to refuse.
     virtual void upgrade(Json& /*json*/, int /*version*/) const {}
     /// The part as undo and redo restore it, if that differs, else null: undo must not restore an active
     /// drag.
     virtual std::shared_ptr<const Part> after_undo() const { return nullptr; }
-    /// `then`, the part at another moment, with this part's selection and view, which rewinding keeps.
+    /// `then`, the part at another moment, with this part's selection and view: rewinding keeps them.
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
-    /// The part without what only its past explains; null if there is nothing to drop.
+    /// The part without the members that only its past explains; null if it has none.
     virtual std::shared_ptr<const Part> without_past() const { return nullptr; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;
-    /// The bytes that `other`, a part of the same lab, holds too, for example a character's.
+    /// Bytes shared with `other`, a part of the same lab: a character's, for example.
     virtual std::size_t shared_bytes(const Part& /*other*/) const { return 0; }
     /// Files that load() reads besides the JSON; the program never writes over them.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 
-    /// The scene's JSON for this lab, if a file that it names kept it from being read, and why; else null. It
-    /// is saved instead of save() until a command edits the part, which then replaces it.
+    /// The scene's JSON for this lab, if a file that it names kept it from being read; else null. Saved in
+    /// place of save() until a command edits the part, which then replaces it.
     std::shared_ptr<const Json> unread{};
     std::string unread_why{};  ///< "hero.glb is missing, at ..."
     bool replaces_unread = false;
-    std::shared_ptr<const Json> unread_stand_in{};  ///< the edited lab's, if that could not be read either
+    std::shared_ptr<const Json> unread_stand_in{};  ///< the edited lab's, if also unreadable
 };
 
 class Document {
@@ -79,7 +79,7 @@ class Document {
         });
         return rest;
     }
-    bool operator==(const Document&) const = default;  ///< shares all parts, not merely equal ones
+    bool operator==(const Document&) const = default;  ///< whether all parts are shared, not merely equal
 
   private:
     std::map<std::string, std::shared_ptr<const Part>> parts_;

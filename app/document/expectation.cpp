@@ -47,7 +47,7 @@ bool equal(const Json& a, const Json& b) {
     return true;
 }
 
-/// Between two numbers, or two points of the same size; NaN if they cannot be compared.
+/// Distance between two numbers, or two points of the same size; NaN if they cannot be compared.
 double distance(const Json& a, const Json& b) {
     if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
     if (!a.is_array() || !b.is_array() || a.size() != b.size()) return std::nan("");

@@ -51,7 +51,7 @@ class History {
     /// Drops the last entry.
     void forget_last() { take(past_); }
 
-    /// Whether undo would restore exactly these parts.
+    /// True if undo would restore exactly these parts.
     bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
@@ -61,7 +61,7 @@ class History {
     std::string undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
     std::string redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
     std::size_t size() const { return past_.size(); }
-    /// Whether the gesture's next command would join its entry.
+    /// True if the gesture's next command would join its entry.
     bool is_open(Gesture gesture) const { return gesture != 0 && gesture == open_gesture_; }
     /// Memory that the entries hold, shared parts counted once.
     std::size_t bytes() const { return bytes_; }

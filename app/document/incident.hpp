@@ -27,7 +27,7 @@ struct Incident {
         Limit,    ///< a joint limit became active; a control reached its limit, or left it
         Restart,  ///< a solver restarted from another pose
         Status,   ///< a solve's status differs from the previous one, or a request was refused
-        Jump      ///< a joint went on to another crossing of its curve
+        Jump      ///< a joint jumped to another crossing of its curve
     };
     Kind kind = Kind::Status;
     std::uint64_t tick = 0;        ///< happened between this tick's moment and the next
@@ -40,7 +40,7 @@ struct Incident {
     std::vector<Cure> buttons{};   ///< apply the cure, where commands can
 };
 
-/// As written by --state.
+/// Name of the kind in --state.
 inline const char* name(Incident::Kind kind) {
     static constexpr std::array names{"flip", "limit", "restart", "status", "jump"};
     return names[static_cast<std::size_t>(kind)];

@@ -74,7 +74,7 @@ Json parse_json(std::string_view text);
 /// that path that exists; 0 if none does.
 int json_line(std::string_view text, std::string_view path);
 
-/// The exception's message. The JSON library's own messages are replaced by one in our words.
+/// The exception's message. The JSON library's own messages are reworded.
 std::string reason_of(const std::exception& error);
 
 /// Reads a whole file, pipe or device of at most max_file_bytes. Throws std::runtime_error naming the path.

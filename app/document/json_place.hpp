@@ -29,14 +29,14 @@ class JsonPlace {
     /// A member that may be missing or null.
     std::optional<JsonPlace> optional(const char* key) const;
     JsonPlace element(std::size_t index) const;
-    /// Size of a list of at most `most` elements, which messages call `what`: "segments".
+    /// Size of a list of at most `most` elements; messages call them `what`: "segments".
     std::size_t list_size(const char* what, std::size_t most) const;
     /// Calls `take` with every element of such a list.
     void for_each(const char* what, std::size_t most, auto take) const {
         const std::size_t size = list_size(what, most);
         for (std::size_t i = 0; i < size; ++i) take(element(i));
     }
-    /// Requires a list of exactly `size` elements, which messages call `of`: "positions, one a segment".
+    /// Requires a list of exactly `size` elements; messages call them `of`: "positions, one a segment".
     void check_size(std::size_t size, const char* of) const;
 
     float number() const { return json_number(*json_, where_); }

@@ -14,7 +14,7 @@ namespace tendril::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// The same for all names of a file but hard links.
+/// One name for a file, however its path is spelled; hard links still differ.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
     // A relative path without any existing part would stay as it is spelled.
@@ -114,7 +114,7 @@ Json gltf_json(const fs::path& file) {
     }
 }
 
-/// Whether a "uri" in the JSON leads from the folder to that file.
+/// True if a "uri" in the JSON leads from the folder to that file.
 bool names(const Json& json, const fs::path& folder, const fs::path& path) {
     if (!json.is_structured()) return false;
     if (const auto uri = json.is_object() ? json.find("uri") : json.end();
@@ -128,7 +128,7 @@ bool names(const Json& json, const fs::path& folder, const fs::path& path) {
     return false;
 }
 
-/// Whether `input` is that file, or a glTF file that names it as its buffer or picture.
+/// True if `input` is that file, or a glTF file that names it as its buffer or picture.
 bool reads(const fs::path& input, const fs::path& path) {
     std::error_code error;
     if (fs::equivalent(input, path, error)) return true;

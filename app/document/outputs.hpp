@@ -1,10 +1,10 @@
-// Which files this program may write over: one rule for every writer, in the window and in a terminal.
+// Decides which files this program may overwrite: one rule for every writer, in the window and in a terminal.
 //
-// New or empty files, devices and pipes are always written. An input file, such as a glTF or a buffer or
-// picture that it names, or a file of another kind, is never replaced, whatever its name. A file that this
-// session has opened or written is replaced, unless another program has changed it since; so is one that
-// already holds the same bytes, and, for --screenshot and --state, an earlier picture or state. A window
-// replaces any other file if it is asked once more; a terminal needs --force.
+// New or empty files, devices and pipes are always written. Input files (a glTF, or a buffer or picture that
+// it names) and files of another kind are never replaced, whatever their names. A file that this session has
+// opened or written is replaced, unless another program has changed it since; so is one that already holds
+// the same bytes and, for --screenshot and --state, an earlier picture or state. To replace any other file, a
+// window asks for a second save and a terminal needs --force.
 #pragma once
 
 #include <filesystem>
@@ -31,23 +31,23 @@ class Outputs {
     void check(const std::vector<std::filesystem::path>& paths, OutputKind kind, bool redraws = false);
     /// Throws std::runtime_error with `loss`, unless that is empty, --force is given or a window asks again.
     void confirm(const std::string& loss);
-    /// At the end of long work, which must not be lost: the path and no refusal or, where check() now refuses
-    /// it, a free name beside it and why.
+    /// Where long work, which must not be lost, can be written at its end: the given path or, if check() now
+    /// refuses it, a free name beside it with the refusal.
     struct Place {
         std::filesystem::path path;
         std::string refusal{};
     };
     Place place_at_end(const std::filesystem::path& path, OutputKind kind);
-    /// Checks, writes atomically and owns the file. Throws std::runtime_error; the old file is then as it
-    /// was.
+    /// Checks, writes atomically and owns the file. Throws std::runtime_error; the old file is then
+    /// unchanged.
     void write(const std::filesystem::path& path, OutputKind kind, std::string_view bytes,
                bool redraws = false);
-    /// The session has opened or written this file when its stamp was that: it may replace it.
+    /// The session opened or wrote this file when it had this stamp, so it may replace it.
     void own(const std::filesystem::path& path, const FileStamp& stamp);
 
   private:
     std::map<std::filesystem::path, FileStamp> owned_;
-    std::map<std::filesystem::path, FileStamp> asked_;  ///< refused because they existed like this
+    std::map<std::filesystem::path, FileStamp> asked_;  ///< refused files, with their stamps then
     std::string asked_loss_{};                          ///< refused by confirm()
 
     const char* again() const {

@@ -45,7 +45,7 @@ void for_each_file(auto& json, const auto& take) {
     for (auto& each : json) for_each_file(each, take);
 }
 
-/// Empty if the file is nowhere.
+/// Empty if the file is not found.
 fs::path moved_file(const fs::path& path, const fs::path& scene_folder) {
     constexpr std::size_t longest = 4096;  // bytes, the usual limit of operating systems
     fs::path base = path.native().size() > longest ? fs::path() : scene_folder;

@@ -15,7 +15,7 @@
 namespace tendril::app {
 
 struct OutsideFile {
-    std::string file{};                    ///< as the user gave it; empty: there is none
+    std::string file{};                    ///< as the user gave it; empty if there is none
     std::string path{};                    ///< absolute
     std::optional<std::uint32_t> crc32{};  ///< checksum of the file's bytes
     bool operator==(const OutsideFile&) const = default;
@@ -26,7 +26,7 @@ OutsideFile outside_file(const std::string& path, const std::string& file = {});
 /// The file's members in the scene's JSON.
 Json save_outside_file(const OutsideFile& file);
 
-/// A file that a scene names is missing or unreadable. what() names the file, as a person does.
+/// A file that a scene names is missing or unreadable. what() names the file as the user does.
 class OutsideFileError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -14,7 +14,7 @@ class Refused : public std::runtime_error {
     explicit Refused(const std::string& why) : std::runtime_error(message(why)) {}
     Refused(const std::string& command, const std::string& why)
         : std::runtime_error(message(command + ": " + why)), reason_at_(command.size() + 2) {}
-    /// what() without the command's name, which a person who clicks does not know.
+    /// what() without the command's name, which panels do not show.
     const char* reason() const noexcept { return what() + reason_at_; }
 
   private:

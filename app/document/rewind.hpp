@@ -1,6 +1,6 @@
-// A lab's last ten seconds, to go back in time: its part at each tick that was simulated or changed by hand,
-// or at every second, fourth, ... if that grows too large; and the incidents in them. Not part of the
-// document and not saved.
+// A lab's last ten seconds, for going back in time: its part at each tick that was simulated or changed by
+// hand (every second, fourth, ... tick if that grows too large), and the incidents among them. Not part of
+// the document and not saved.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,7 @@ class Rewind {
     /// Null if that moment was discarded or overwritten.
     const Moment* find(const MomentId& id) const;
 
-    /// By tick.
+    /// In order of tick.
     const std::deque<Moment>& moments() const { return moments_; }
     std::size_t size() const { return moments_.size(); }
     std::size_t bytes() const { return bytes_; }

@@ -47,7 +47,7 @@ class Runtimes {
     mutable std::map<std::string, std::unique_ptr<Runtime>> by_lab_;
 };
 
-// Whether the machine keeps up with real time, for the labs' messages. In a live window only.
+// Shows labs whether the machine keeps up with real time. In a live window only.
 
 /// Seconds that the window catches up after a stall; the rest of a longer one is dropped.
 inline constexpr double max_stall = 0.25;

@@ -247,8 +247,7 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     return scene;
 }
 
-/// The reason why a saved scene would not open; empty if it would. Missing files that it names are not its
-/// fault.
+/// Why a saved scene would not open; empty if it would. Missing files that it names do not count.
 std::string loading_fault(const Workspace& workspace, const std::string& text) {
     try {
         read_scene(workspace, parse_json(text), {.tells_changes = false});

@@ -27,8 +27,8 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
-/// The key in `choices` that holds whether a section is folded, "chain: Target", or all sections of a lab,
-/// "chain", that were not folded or unfolded since.
+/// The key in `choices` for whether a section is folded ("chain: Target"), or, for a lab ("chain"), every
+/// section that was not folded or unfolded since.
 inline std::string fold_key(const std::string& section) {
     return "section " + section;
 }

@@ -76,9 +76,9 @@ struct RepeatedDrag {
         glm::vec3 at{0.0f};
     };
     std::vector<Point> path{};               ///< the step's drags since another command changed the scene
-    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
+    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident caused by a drag
     SharedJson incident{};                   ///< the incident to cure, as in the state
-    glm::vec3 place{0.0f}, direction{0.0f};  ///< the drag's, when it caused the incident
+    glm::vec3 place{0.0f}, direction{0.0f};  ///< of the drag, when it caused the incident
     bool cured = false;
 };
 
@@ -95,7 +95,7 @@ struct CardProgress {
 
 bool card_shown(const Settings& settings, const std::string& lab);
 void show_card(Settings& settings, const std::string& lab, bool shown);
-/// Whether the user ever showed or hid the card.
+/// True if the user ever showed or hid the card.
 bool card_known(const Settings& settings, const std::string& lab);
 
 inline constexpr double tick_seconds = 1.0 / 60.0;
@@ -148,7 +148,7 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Picture, Video } file_dialog = FileDialog::None;
     bool plays_after_dialog = false;  ///< the simulation resumes when the dialog closes
-    std::string browses_for;          ///< the command that the file to open is for; empty: that of its kind
+    std::string browses_for;          ///< the command for the chosen file; empty: its kind's
     struct FileQuestion {
         std::string path;
         std::vector<FileWay> ways{};  ///< none: nothing is asked
@@ -166,11 +166,11 @@ struct UiState {
     std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
     bool incident_chosen = false;               ///< by the user: the inspector scrolls to it
     std::map<std::string, CardProgress> cards;  ///< things to try, by lab
-    std::string hidden_gizmo;                   ///< its handle; by Esc, until one is pressed or selected
+    std::string hidden_gizmo;                   ///< hidden by Esc, until a handle is pressed or selected
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 
-    /// Whether something that Esc closes covers the scene.
+    /// True if something that Esc closes is open over the scene.
     bool covered() const {
         return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None ||
                !file_question.ways.empty();

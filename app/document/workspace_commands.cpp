@@ -10,8 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// Whether to stop before a step because it would change a lab that is not in view. Shows that lab, and says
-/// so.
+/// If the step would change a lab that is not in view, shows that lab instead, says so and returns true.
 bool waits(Workspace& workspace, bool back) {
     const std::string word = back ? "undo" : "redo", lab = workspace.history.next_lab(back);
     if (lab.empty() || lab == workspace.lab) return false;
@@ -114,7 +113,7 @@ void show_incident(Workspace& w, const Arguments& given) {
     w.ui.incident_chosen = true;
 }
 
-/// The shortest decimals, as the user would type them.
+/// The fewest decimals that read back exactly, as the user would type them.
 std::string plain(float value) {
     return number(value).dump();
 }

@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-/// "1/s" as "/s", "m/s^2" as "m/s²", "deg" as a degree sign; with the space before it.
+/// "1/s" as "/s", "m/s^2" as "m/s²", "deg" as a degree sign, each with a space before it if needed.
 std::string shown_unit(std::string unit) {
     if (unit.empty()) return "";
     if (unit == "deg" || unit == "rad") return "\u00b0";
@@ -98,7 +98,7 @@ void FieldRows::draw(const Field& field, const FieldText& text, const RowOptions
     ImGui::EndDisabled();
     std::string help = text.help;
     if (!options.why_not.empty()) help += ' ' + options.why_not;
-    if (field.type == FieldType::Choice) {  // of the chosen one; the list shows the others by name alone
+    if (field.type == FieldType::Choice) {  // help of the chosen one only; the list shows the others
         const EnumRow& now = text.choices[static_cast<std::size_t>(chosen(field, text))];
         if (now.help != nullptr && *now.help != '\0') help += std::string("\n") + now.title + ": " + now.help;
     }
@@ -136,7 +136,7 @@ void FieldRows::number_row(const Field& field, const FieldText& text, const RowO
 void FieldRows::pair_row(const Field& field, const FieldText& text) const {
     const FieldValue now = field.get(of_.object);
     for (std::size_t i = 0; i < 2; ++i) {
-        if (i > 0) explain(text.help);  // the caller explains the last
+        if (i > 0) explain(text.help);  // the caller explains the last one
         const std::string label = std::string(text.label) + ' ' + text.ends[i];
         auto value = static_cast<float>(text.scale * now[i]);
         if (!shown_number(label.c_str(), value, field, text)) continue;
@@ -152,7 +152,7 @@ void FieldRows::point_row(const Field& field, const FieldText& text) const {
     const auto most = static_cast<float>(field.slider().high);
     std::string label = text.label, format = format_of(field, text);
     if (const std::size_t unit = format.find(' '); text.in_line && unit != format.npos) {
-        label += ',' + format.substr(unit);  // too wide for each of the three
+        label += ',' + format.substr(unit);  // too wide to repeat in all three fields
         format.resize(unit);
     }
     if (text.in_line

@@ -18,7 +18,7 @@ struct RowOptions {
     std::optional<FieldRange> within{};  ///< narrower range, set by another field
     std::optional<double> otherwise{};   ///< shown while an optional field is empty
     std::string why_not{};               ///< reason to disable the row; empty if enabled
-    std::vector<glm::vec3> swatches{};   ///< of listed choices, in their order: the colours that they mean
+    std::vector<glm::vec3> swatches{};   ///< colours for listed choices, in their order
     /// Reasons to disable listed choices, in their order, null where enabled; if any is disabled.
     std::vector<const char*> why_not_choices{};
 };
@@ -30,7 +30,8 @@ class FieldRows {
     FieldRows(const Struct& object, std::string command, Emit& emit, ArgumentList with = {})
         : FieldRows(FieldsOf(object), field_texts<Struct>(), std::move(command), emit, std::move(with)) {}
     template <class Struct>
-    FieldRows(const Struct&&, std::string, Emit&, ArgumentList = {}) = delete;  // it refers to the struct
+    FieldRows(const Struct&&, std::string, Emit&,
+              ArgumentList = {}) = delete;  // the rows refer to the struct
     FieldRows(FieldsOf of, std::span<const FieldText> texts, std::string command, Emit& emit,
               ArgumentList with = {})
         : of_(of), texts_(texts), command_(std::move(command)), emit_(emit), with_(std::move(with)) {}
@@ -41,7 +42,7 @@ class FieldRows {
         more_ = &more;
         return *this;
     }
-    /// Where the struct's type has no default of its own. It must live as long.
+    /// For structs whose type has no defaults of its own. `usual` must live as long as the rows.
     FieldRows& compared_with(FieldsOf usual) {
         of_.fresh = usual.object;
         return *this;
@@ -51,7 +52,7 @@ class FieldRows {
     void rows(Names... names) const {
         (row(names), ...);
     }
-    /// A row for every field that has a label, in the order of the table.
+    /// A row for every field with a label, in the table's order.
     void all() const {
         for (const Field& field : of_.table)
             if (text_of(field).label != nullptr) row(field.name);

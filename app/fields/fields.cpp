@@ -13,7 +13,7 @@
 namespace tendril::app {
 namespace {
 
-/// A bound of a range as written in files: 0.001, not 0.00100000005.
+/// An end of a range as files write it: 0.001, not 0.00100000005.
 double file_end(const Field& field, double end) {
     if (std::isinf(end)) return end;
     const auto single = static_cast<float>(end);
@@ -21,8 +21,8 @@ double file_end(const Field& field, double end) {
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;
 }
 
-/// Degrees that give an angle of double precision again, short ones if they do. Some radians have none; those
-/// that were given in degrees have.
+/// Degrees that convert back to exactly this angle, short ones if possible. Some angles in radians have none;
+/// angles that were given in degrees do.
 Json exact_degrees(double radians) {
     const double degrees = glm::degrees(radians);
     for (const double near : {shortest_decimal(static_cast<float>(degrees)), degrees,
@@ -177,7 +177,7 @@ std::size_t count_of(const Field& field, const void* object) {
     if (field.count != nullptr) return field.count(object);
     return field.address == nullptr || field.address(object, 0) != nullptr ? 1 : 0;
 }
-/// What the field's accessors take; of a struct, its address.
+/// The argument of the field's accessors; for a struct, its address.
 const void* element_of(const Field& field, const void* object, std::size_t index) {
     return field.address != nullptr ? field.address(object, index) : object;
 }
@@ -209,7 +209,7 @@ bool same_field(const Field& field, const void* a, const void* b) {
 
 namespace {
 
-/// The text that an element of a list is known by; null if there is none.
+/// The text field that names the elements of a list; null if they have no names.
 const Field* key_of(const Field& list) {
     if (list.type != FieldType::Struct) return nullptr;
     const Field& first = list.table().front();
@@ -225,13 +225,13 @@ struct NamesOf {
     std::string_view operator[](std::size_t i) const { return key_of(*list)->text(list->address(object, i)); }
 };
 
-/// A struct, and those around it.
+/// A struct and the structs around it.
 struct Scope {
     const Scope* above;
     std::span<const Field> table;
     const void* object;
 
-    /// For an index into the list of that name.
+    /// The elements' names in the list that an index points into.
     NamesOf names(std::string_view list) const {
         if (above == nullptr) return {};
         const Field* const found = find_field(above->table, list);
@@ -239,7 +239,7 @@ struct Scope {
     }
 };
 
-/// Also an index of an element, which has no default although it is a number.
+/// Also true for an element's index: it is a number without a default.
 bool is_required(const Field& field) {
     return field.required || (field.type == FieldType::Index && field.count == nullptr && !field.optional);
 }
@@ -274,7 +274,7 @@ Json save_list(const Field& field, const Scope& scope) {
     return list;
 }
 
-/// Whether files leave it out.
+/// True if files omit the field.
 bool is_left_out(const Field& field, const void* object) {
     if (field.type == FieldType::Kind) return count_of(field, object) == 0;
     return field.sparse && field.kinds.empty() &&
@@ -285,11 +285,11 @@ bool is_its_value(std::span<const Field> table) {
     return table.size() == 1 && *table[0].name == '\0';
 }
 
-/// Without the members that are as in `fresh`, if there is one.
+/// Omits members equal to those of `fresh`, if it is given.
 Json save_struct(const Scope& scope, const void* fresh) {
     if (is_its_value(scope.table)) return save_list(scope.table[0], scope);
     Json json = Json::object();
-    for (const Field& field : scope.table)  // the kind of a unit comes first
+    for (const Field& field : scope.table)  // a unit's kind comes first
         if (field.type == FieldType::Kind && !field.optional) json[field.name] = nullptr;
     for (const Field& field : scope.table) {
         if (is_left_out(field, scope.object)) continue;
@@ -312,7 +312,7 @@ Json save_struct(const Scope& scope, const void* fresh) {
     return json;
 }
 
-/// The names of members allowed there. Old files name an angle without _deg.
+/// Names of the allowed members. Old files name an angle without _deg.
 std::vector<std::string> known_names(const JsonPlace& place, std::span<const Field> table,
                                      const void* object) {
     std::vector<std::string> names = field_names(table, object);
@@ -336,7 +336,7 @@ class Loader {
         if (only_known_) check_members(place, known_names(place, scope.table, scope.object));
         beside(place, scope);
     }
-    /// Makes variants what the file has.
+    /// Sets each variant to the kind in the file.
     void kinds(const JsonPlace& place, const Scope& scope) const {
         if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
         for (const Field& field : scope.table)
@@ -432,7 +432,7 @@ class Loader {
         if (!field.names.empty()) return;
         std::size_t size = field.most;
         if (field.resize != nullptr) {
-            field.resize(object, 0);  // what was there is no default
+            field.resize(object, 0);  // old elements are not defaults
             size = place.list_size(field.name, field.most);
             if (size < field.fewest)
                 place.fail("expected at least " + std::to_string(field.fewest) + ' ' + field.name +
@@ -442,7 +442,7 @@ class Loader {
         }
         std::set<std::string, std::less<>> names;
         for (std::size_t i = 0; i < size; ++i) {
-            // One by one: millions of invalid elements are refused at the first.
+            // Grow one by one, so that a list of millions of invalid elements is refused at the first.
             if (field.resize != nullptr) field.resize(object, i + 1);
             const Loader fresh(missing_ == Missing::Kept ? Missing::Default : missing_, only_known_);
             fresh.element(place.element(i), field, field.address_in(object, i), scope);

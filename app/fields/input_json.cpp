@@ -31,7 +31,7 @@ constexpr std::string_view of_names[] = {"transform", "translation", "rotation",
                                          "x",         "y",           "z",        "value"};
 constexpr std::string_view each_names[] = {"ratio", "index", "count"};
 
-/// The part of an element that an input of this type takes by default.
+/// The part of an element that an input of this type uses by default.
 rig::Of part_taken(const std::optional<rig::Type>& type) {
     using enum rig::Type;
     if (type == Bool || type == Number) return rig::Of::ControlValue;

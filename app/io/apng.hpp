@@ -1,7 +1,7 @@
 // Animated PNG, which browsers and image viewers play: Portable Network Graphics (PNG) Specification, third
 // edition, W3C 2025, https://www.w3.org/TR/png-3/: chunks acTL, fcTL and fdAT. Lossless, with an alpha
-// channel. After the first frame only the changed rectangle is written. Memory: two frames, and the changed
-// part of one, filtered.
+// channel. After the first frame, only the changed rectangle is written. Memory: two frames, and the filtered
+// bytes of one rectangle.
 #pragma once
 
 #include <cstdint>

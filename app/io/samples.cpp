@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most = 1e9;  // the limit of all numbers that the program reads
+constexpr double most = 1e9;  // limit of every number that the program reads
 
 using Fields = std::vector<std::string_view>;
 
@@ -191,14 +191,14 @@ std::optional<std::size_t> usual_column(const Fields& names, std::initializer_li
     return std::nullopt;
 }
 
-/// The columns of samples.
+/// Which columns hold the samples.
 struct Columns {
     std::size_t time = 0, input = 1, width = 2;
     bool absolute = false;  ///< time is absolute, not the time since the previous row
     double seconds = 1.0;   ///< the unit of time
 };
 
-/// Throws with a list of the columns if they do not determine which to read.
+/// Throws with a list of the columns if it is unclear which to read.
 Columns columns_of(const Table& table, const Fields& names, bool named, const ColumnChoice& choice) {
     if (!named && names.size() == 2 && choice.time.empty() && choice.value.empty()) return {};
     std::optional<std::size_t> time, value, dt;
@@ -234,8 +234,7 @@ void check_order(const Table& table, const Columns& columns, double time, double
         table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
 }
 
-/// Computes dt from absolute times. The first sample's dt is unknown and is set to the second one's, whatever
-/// the first time is.
+/// Computes dt from absolute times. The first sample has no previous time: its dt is set to the second one's.
 void difference(TimedSamples& rows) {
     for (std::size_t i = 1; i < rows.times.size(); ++i) {
         rows.samples[i].dt = rows.times[i] - rows.times[i - 1];
@@ -245,7 +244,7 @@ void difference(TimedSamples& rows) {
     rows.samples[0].dt = std::max(rows.samples[0].dt, signal::min_dt);
 }
 
-constexpr double farthest_point = 1e9;  // the limit of all numbers that the program reads
+constexpr double farthest_point = 1e9;  // limit of every number that the program reads
 
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -392,7 +391,7 @@ class PointReader {
 
     std::string_view text_;
     std::size_t most_, at_ = 0, line_ = 1;
-    std::string open_;  ///< the open brackets
+    std::string open_;  ///< brackets opened so far
     std::vector<glm::vec3> points_;
     // the present row
     glm::vec3 row_{0.0f};

@@ -1,7 +1,7 @@
-// Reads tables of numbers that other programs wrote: samples of a signal, from CSV files for the subcommand
-// and the lab; and points, from any copied text.
+// Reads tables of numbers from other programs: samples of a signal, from CSV files, for the subcommand and
+// the lab; and points, from any copied text.
 //
-// In a CSV file columns are separated by commas; quotes enclose a field. The first row may name them, in any
+// In a CSV file, commas separate columns; quotes enclose a field. The first row may name the columns, in any
 // case and with a unit in brackets: the time is in dt, time, t, seconds or the like, the value in input,
 // value, x, y or the like; of two columns, the value is the one that is not the time. Without names, samples
 // have two columns, dt and input. Times must not decrease; filters start at the first row, whatever its time.
@@ -21,20 +21,20 @@ namespace tendril::app {
 
 inline constexpr std::size_t max_samples = 1'000'000;
 
-/// Samples, and their times as in the file; if it has dt, the times at the end of each dt.
+/// Samples, and their times as in the file; if the file has dt, the times at the end of each dt.
 struct TimedSamples {
     std::vector<signal::Sample> samples;
     std::vector<double> times;
 };
 
-/// Which columns to read, by name or by number from 1; empty: found by their usual names.
+/// Which columns to read, by name or by number from 1; empty: find them by their usual names.
 struct ColumnChoice {
     std::string time, value;
 };
 
 /// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
-/// Throws std::runtime_error, with a list of the columns if they do not determine which to read. Refuses a
-/// file without samples.
+/// Throws std::runtime_error, with a list of the columns if it is unclear which to read. Refuses a file
+/// without samples.
 TimedSamples parse_samples(std::string_view text, const std::string& name, const ColumnChoice& choice = {});
 TimedSamples read_samples(const std::filesystem::path& path, const ColumnChoice& choice = {});
 

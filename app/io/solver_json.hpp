@@ -28,13 +28,13 @@ std::string fault_text(const char* why, const ik::Limit& limit);
 /// length.
 ik::Limit limit_from_json(const Json& json, const std::string& where);
 
-/// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite, or of refused input,
-/// is null. "ran" is ran_text().
+/// {"solver", "status", "iterations", "residual", "ran"}; residual is null if it is not finite, or if the
+/// input was refused. "ran" is ran_text().
 Json report_json(ik::Method method, const ik::Report& report);
 
 /// Throws std::runtime_error that begins with `where` and lists the names.
 ik::Method method_from_name(const std::string& name, const std::string& where);
-/// By ik::Method.
+/// Indexed by ik::Method.
 std::span<const char* const> solver_names();
 /// "fabrik, fabrik_plain, ccd, ..."
 std::string method_names();
@@ -49,7 +49,7 @@ const char* outcome_name(ik::Status status);
 
 /// The solvers that ran in a solve: "FABRIK, accelerated + least squares, 3 restarts", or "FABRIK,
 /// accelerated, 1 perturbation" for a chain that had stalled or was collinear. Methods keep their names with
-/// limits, although FABRIK then omits its accelerated step and two bones continue with least-squares steps.
+/// limits, although FABRIK then omits its accelerated step and two bones are followed by least-squares steps.
 std::string ran_text(ik::Method method, const ik::Report& report);
 
 }  // namespace tendril::app

@@ -45,8 +45,8 @@ namespace {
 
 constexpr double max_encoder_end = 120.0;  ///< seconds that ffmpeg may take to finish
 
-/// MP4 as players on every system accept it. Each frame of a GIF has a palette of its own, so that ffmpeg
-/// need not keep them all.
+/// MP4 in the form that players on every system accept. Each frame of a GIF has its own palette, so that
+/// ffmpeg need not keep all frames.
 constexpr const char* to_mp4 =
     "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p -colorspace bt709 -color_primaries bt709 "
     "-color_trc bt709 -color_range tv -c:v libx264 -preset fast -crf 18 -movflags +faststart -f mp4 -y";
@@ -103,7 +103,7 @@ double FfmpegVideo::seconds_left() {
 
 void FfmpegVideo::begin_reading() {
     if (!reader_ && ffmpeg_.ended_after_input() && ffmpeg_.succeeded())
-        ends_by_.reset(),  // the same time again to read it
+        ends_by_.reset(),  // the same time again to read it back
             reader_.emplace(
                 ffmpeg(gif_ ? "-xerror -f gif -i" : "-xerror -f mp4 -i", file_.beside(), "-f null -"));
 }

@@ -16,7 +16,7 @@
 namespace tendril::app {
 
 struct VideoFormat {
-    glm::ivec2 size{0};        ///< every frame's, pixels
+    glm::ivec2 size{0};        ///< of every frame, pixels
     int frames = 0;            ///< total, 1 or more
     int every = 2;             ///< ticks of 1/60 s from one frame to the next: 1 to 60
     double speed = 1.0;        ///< 0.05 to 2; in slow motion frames last longer
@@ -36,7 +36,7 @@ class VideoFile {
     virtual ~VideoFile() = default;
     /// Throws if the frame's size differs from the video's, or there are too many frames.
     virtual void add(const Image& frame) = 0;
-    /// Whether another program writes the file, so that the time to finish is unpredictable.
+    /// True if another program writes the file, so that the time to finish is unpredictable.
     virtual bool by_another_program() const { return false; }
     /// After the last frame: whether finish() would have to wait for that program.
     virtual bool waits() { return false; }
@@ -50,7 +50,7 @@ class VideoFile {
     AtomicFile file_;
 };
 
-/// A format, which the ending of the file's name chooses.
+/// A format, chosen by the ending of the file's name.
 struct VideoKind {
     const char* ending;  ///< ".gif"
     const char* title;   ///< "GIF"
@@ -62,7 +62,7 @@ struct VideoKind {
 inline constexpr std::array<VideoKind, 3> video_kinds{{{".png", "animated PNG", 60.0, false, true, false},
                                                        {".gif", "GIF", 50.0},
                                                        {".mp4", "MP4", 120.0, true, false, true}}};
-/// Null if the name has none of the endings.
+/// Null if the name has no known ending.
 const VideoKind* video_kind(const std::filesystem::path& path);
 
 /// "to write GIF, install ffmpeg"; empty if such videos can be written.
@@ -73,10 +73,10 @@ std::string why_no_video(const std::filesystem::path& path);
 /// Throws if the file cannot be created, or for the reason of why_no_video().
 std::unique_ptr<VideoFile> open_video(const std::filesystem::path& path, const VideoFormat& format);
 
-/// Videos that ffmpeg writes through a pipe, if it is installed: MP4 with H.264, which everything plays, and
-/// GIF. ffmpeg may exit successfully after a failed write, so it then reads the whole file back; only then is
-/// the old file replaced. MP4 has colour at half the resolution (4:2:0); a frame of a GIF has 256 colours of
-/// its own. Neither has partial transparency.
+/// Videos that ffmpeg writes through a pipe, if it is installed: MP4 with H.264, which every player supports,
+/// and GIF. ffmpeg may exit successfully after a failed write, so it then reads the whole file back before
+/// the old file is replaced. MP4 has colour at half the resolution (4:2:0); each frame of a GIF has its own
+/// 256 colours. Neither has partial transparency.
 class FfmpegVideo final : public VideoFile {
   public:
     /// Width and height of an MP4 must be even.
@@ -89,10 +89,10 @@ class FfmpegVideo final : public VideoFile {
   private:
     VideoFormat format_;
     bool gif_;
-    ChildProcess ffmpeg_;                 ///< destroyed before the file that it writes
+    ChildProcess ffmpeg_;                 ///< must be destroyed before the file that it writes
     std::optional<ChildProcess> reader_;  ///< set once ffmpeg_ has succeeded
     int frames_ = 0;
-    std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once it has all frames
+    std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once ffmpeg_ has all frames
 
     double seconds_left();
     /// Starts reading it back, unless ffmpeg_ has failed or is still running.

@@ -156,7 +156,7 @@ void add_card_commands(CommandTable& table) {
              const bool open = given.has("open") ? given.boolean("open") : given.has("number") || !seen;
              show_card(w.settings, w.lab, open);
              if (!open) return;
-             w.settings.right_open = true;  // which contains the card
+             w.settings.right_open = true;  // the panel that holds the card
              w.ui.cards[w.lab] = {.card = card};
          }});
 }

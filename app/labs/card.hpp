@@ -40,7 +40,7 @@ struct CardLine {
 struct CardCondition {
     enum class Kind {
         Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
-        Present,   ///< the state has such a value: {"present": PATH}
+        Present,   ///< the state has a value there: {"present": PATH}
         Noted,     ///< the command caused an incident of that kind: {"event": "flip"}
         Avoided    ///< a drag that caused such an incident no longer does: {"avoided": "flip", ...}
     } kind = Kind::Expected;

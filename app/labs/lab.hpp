@@ -55,10 +55,10 @@ struct Handle {
 /// The handles that one drag of the gizmo moves when several things are selected.
 struct Together {
     std::vector<Handle> handles;
-    std::string staying;  ///< which selected things do not move, and why; empty if none
+    std::string staying;  ///< selected things that do not move, and why; empty if none
 };
 
-/// A lab's answer to text from the clipboard.
+/// How a lab takes text from the clipboard.
 struct TakenText {
     std::optional<CommandCall> command;
     std::string what;  ///< with a command: the contents, "points"; without: the reason for refusing
@@ -76,7 +76,7 @@ Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 /// Frames `bounds` in the open lab's view, unless they are in view and large enough to be seen.
 void frame_unless_seen(Workspace& workspace, const Bounds& bounds);
 
-/// A colour in the scene and its meaning.
+/// A colour in the scene, and its meaning.
 struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
@@ -93,7 +93,7 @@ struct FileKind {
     std::vector<std::string> endings;  ///< in lower case: ".bvh"
     std::string command;               ///< opens such a file, given as `path`
     ArgumentList arguments{};          ///< further arguments
-    /// Whether a file's text begins like this kind. Decides if several kinds share the extension, or if no
+    /// True if a file's text begins like this kind. Decides if several kinds share the extension, or if no
     /// kind has it. Null: the extension alone decides.
     bool (*begins)(std::string_view text) = nullptr;
 };
@@ -118,8 +118,8 @@ class Lab {
     /// The first thing to try: "Drag the orange ball." Empty: none.
     virtual std::string invitation(const Workspace&) const { return {}; }
 
-    /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
-    /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
+    /// Commands that turn the blank part into the scene of a new window, preferably one that moves by itself.
+    /// Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
     /// Commands that stop motions of the opening that would disturb the user. Run once, before the first
     /// change in the lab or the first press on something in it; not an undo step.
@@ -142,9 +142,10 @@ class Lab {
     /// Its incidents in a change or a tick: `before` and `after` are parts of this lab; the workspace gives
     /// access to its runtime. The caller sets the ticks.
     std::vector<Incident> review(const Workspace& workspace, const Part& before, const Part& after) const;
-    /// Whether incidents in `before` still concern `after`: it has the same joints. If not, they are dropped.
+    /// True if incidents in `before` still apply to `after`: the joints are the same. If not, they are
+    /// dropped.
     bool same_joints(const Part& before, const Part& after) const;
-    /// Whether a long computation is running; work() does a part of it each tick, even while paused.
+    /// True if a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
     /// How many of the last ticks make one cycle that ends as it began; 0: none.
@@ -188,7 +189,7 @@ class Lab {
     virtual void click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// Whether Ctrl and a drag on empty space selects by a box.
+    /// True if Ctrl and a drag on empty space selects by a box.
     virtual bool selects_by_box() const { return false; }
     /// Handles that a box in a pane can select, by their positions there.
     virtual std::vector<Handle> selectable(const Workspace& workspace, std::size_t /*pane*/) const {
@@ -196,7 +197,7 @@ class Lab {
     }
     /// Selects the handles in the box; `add` keeps the previous selection. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
-    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of its usual
+    /// True if a drag, wherever it begins, draws a straight stroke across the scene instead of its usual
     /// effect.
     virtual bool takes_strokes(const Workspace&) const { return false; }
     /// The stroke in a pane, in the camera's pixels; its commands are emitted continuously, as one step to
@@ -207,9 +208,9 @@ class Lab {
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// The effect of the mouse on that pick, for the status line.
+    /// The mouse's effect at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
-    /// Whether pictures and videos have labels and legend if the request does not specify it.
+    /// True if pictures and videos have labels and a legend by default.
     virtual bool labels_pictures(const Workspace&) const { return false; }
     /// Draws the plot that stands in a corner of pictures with labels; null: none.
     virtual std::function<void()> picture_plot(const Workspace&, const Palette&) const { return {}; }
@@ -232,16 +233,16 @@ class Lab {
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}
     virtual void inspector(const Workspace&, Emit&) const {}
-    /// Whether the inspector shows an analysis, which needs the card's room.
+    /// True if the inspector shows an analysis, which needs the card's room.
     virtual bool analyses(const Workspace&) const { return false; }
     virtual std::vector<LegendRow> legend(const Workspace&) const { return {}; }
 
     // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// With those of its past.
+    /// Including those of its past.
     std::vector<LabSetting> all_settings() const;
-    /// Mouse gestures in this lab, in addition to those of every lab.
+    /// Mouse gestures of this lab, beyond those of every lab.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
     // output

@@ -223,7 +223,7 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     std::copy_if(routes.begin(), routes.end(), std::back_inserter(fitting),
                  [&](const FileRoute& route) { return has_ending(route.kind, file); });
     if (fitting.size() == 1) return fitting.front();
-    // A pipe can be read only once, so it is taken for a scene.
+    // A pipe can be read only once, so assume a scene.
     std::error_code none;
     if (const fs::file_status status = fs::status(file, none);
         fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
@@ -232,7 +232,7 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     const std::vector<FileRoute>& among = fitting.empty() ? routes : fitting;
     for (const FileRoute& route : among)
         if (route.kind.begins != nullptr && route.kind.begins(text)) return route;
-    // Prefer a kind that takes any text with its ending to one that checks the text and refuses.
+    // Prefer a kind that takes any text with its ending to one that would check and refuse the text.
     for (const FileRoute& route : fitting)
         if (route.kind.begins == nullptr) return route;
     if (!fitting.empty()) return fitting.front();

@@ -50,7 +50,7 @@ void add_video_commands(CommandTable& table, const Labs& labs);
 /// Finds the lab that opens a file. Each lab lists its kinds of file (Lab::files()); file.open finds the lab
 /// by the file's ending, or by its text if that does not decide, and opens the file there.
 struct FileRoute {
-    const Lab* lab = nullptr;  ///< null: a scene, which says itself which lab is open
+    const Lab* lab = nullptr;  ///< null: a scene, which names the open lab itself
     FileKind kind;
 };
 

@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_CORE_PACKAGE_NAME libtendril-dev)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_APP_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_APP_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_APP_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libosmesa6 | libegl1")  # opened while it runs
+set(CPACK_DEBIAN_APP_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libosmesa6 | libegl1")  # opened at run time
 set(CPACK_DEBIAN_CORE_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "libglm-dev, libhwy-dev")
 include(CPack)

@@ -1,5 +1,5 @@
-// Records the user's actions as a script, one line per event and command, `wait` for the ticks between; and
-// plays scripts.
+// Records the user's actions as a script, with one line per event or command and a `wait` for the ticks
+// between; and plays scripts.
 //
 // parse_script restores exactly the same events, bit for bit. The end of the program is not recorded: a
 // script ends with its last line.

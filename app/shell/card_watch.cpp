@@ -22,7 +22,7 @@ constexpr std::size_t bytes_per_tick = 8192;
 /// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
 
-/// Whether the command is the line's, with the arguments that matter.
+/// True if the command matches the line, in the arguments that the line gives.
 bool matches(const CardLine& line, const std::string& command, const Json& arguments) {
     if (line.command != command) return false;
     const auto& wanted = line.arguments->items();
@@ -56,7 +56,7 @@ void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
     drag.path.push_back({moment, to});
 }
 
-/// Whether the incident is the one that was cured: at the same joint, or for the same reason.
+/// True if the incident is the one that was cured: at the same joint, or for the same reason.
 bool recurs(const RepeatedDrag& drag, const Json& incident) {
     const auto same = [&](const char* member) {
         return drag.incident->value(member, Json()) == incident.value(member, Json());
@@ -65,7 +65,7 @@ bool recurs(const RepeatedDrag& drag, const Json& incident) {
 }
 
 /// Records where the drag was when it last caused an incident of that kind. After the cure, another joint may
-/// jump for a different reason, such as a jump of the mouse: the drag then restarts there.
+/// jump for a different reason, such as a jump of the mouse; the drag then has to be repeated from there.
 void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& events) {
     for (const Json& each : events) {
         const auto moment = each.at("tick").get<std::uint64_t>();
@@ -86,7 +86,7 @@ void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& even
     }
 }
 
-/// Whether the cured drag has crossed the place where it caused the incident.
+/// True if the cured drag has crossed the place where it caused the incident.
 bool passed_again(const RepeatedDrag& drag, float within) {
     if (!drag.cured) return false;
     float side = 0.0f;       // the side on which it was, well away from the place
@@ -122,7 +122,7 @@ bool holds(const CardCondition& condition, std::uint64_t tried, const RepeatedDr
     return false;
 }
 
-/// Whether the step waits only for its conditions.
+/// True if the step waits only for its conditions.
 bool pending(const CardProgress& progress, std::size_t step) {
     return !progress.done[step] && progress.tried[step];
 }
@@ -171,7 +171,7 @@ float height(const Card& card, const Measure& m, Fold fold, std::size_t current)
     return sum + m.footer;
 }
 
-/// A race, the microscope and the incidents of a trace need the room.
+/// A race, the microscope and the incidents of a trace need the card's space.
 bool gives_way(const ShellFrame& frame) {
     return frame.lab.analyses(frame.workspace) ||
            std::ranges::any_of(frame.workspace.rewind.incidents(),

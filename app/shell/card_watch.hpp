@@ -1,4 +1,4 @@
-// The card of things to try: detects when its steps are done, and draws it.
+// The card of things to try: detects completed steps, and draws the card.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ void note_command(CardProgress& progress, const Card& card, const std::string& c
 /// part not every tick. `dragging`: a drag is under way; it counts once it ends.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state, bool dragging = false);
-/// Whether the next tick may complete a step even without an event.
+/// True if the next tick may complete a step even without an event.
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part);
 
 /// Index of the first step that is not done; the number of steps if all are.

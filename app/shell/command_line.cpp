@@ -102,7 +102,7 @@ bool contains(const std::vector<std::string>& list, const std::string& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-/// For the last element of a list: values that it does not contain yet.
+/// For the last element of a list: values that the list does not contain yet.
 std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue& value, const Argument& list,
                                         const std::string& line, const Workspace& workspace) {
     const Argument* of = find_argument(*typed.command, list.list_of);
@@ -182,7 +182,7 @@ std::vector<CompletionRow> argument_rows(const TypedLine& typed, const std::stri
     return rows;
 }
 
-/// Whether a word of the text begins with `word`: at the start, or after a character that is not
+/// True if a word of the text begins with `word`: at the start, or after a character that is not
 /// alphanumeric.
 bool begins_word(const std::string& text, const std::string& word) {
     for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1))
@@ -190,7 +190,7 @@ bool begins_word(const std::string& text, const std::string& word) {
     return false;
 }
 
-/// Whether an argument's name has a word that begins with `word`.
+/// True if an argument's name has a word that begins with `word`.
 bool takes(const Command& command, const std::string& word) {
     return std::any_of(command.arguments.begin(), command.arguments.end(), [&](const Argument& argument) {
         return begins_word(lower_case(argument.name), word);
@@ -269,7 +269,7 @@ Json value_of(const std::string& text) {
     return parsed.is_discarded() ? Json(text) : parsed;
 }
 
-/// Whether more typing may turn the text into a valid value.
+/// True if more typing may turn the text into a valid value.
 bool may_become(const Argument& argument, const std::string& text) {
     if (text.empty()) return true;
     const auto begins = [&](const std::string& whole) { return whole.starts_with(text); };

@@ -53,7 +53,7 @@ class CommandPalette {
     };
     Offer offer(const ShellFrame& frame) const;
     void reset();
-    /// The input line; returns whether Enter was pressed.
+    /// Draws the input line; returns whether Enter was pressed.
     bool line_field(const ShellFrame& frame, bool appearing);
     int on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data);
     /// The line after Tab.

@@ -24,7 +24,7 @@ class PictureOptions {
     float rows() const { return video_ ? 13.0f : 7.0f; }
 
     /// Call when the dialog opens. Keeps earlier choices, except for seconds and labels. `labels`: whether
-    /// the lab wants labels. `loop`: the last ticks that loop, shown at first; 0: all that is remembered.
+    /// the lab wants labels. `loop`: the last ticks that make one loop, chosen at first; 0: everything.
     void start(const Workspace& workspace, bool labels, bool video, int loop);
     void frame();
     /// The chosen format's ending.
@@ -99,7 +99,7 @@ class FileDialog {
 
     std::filesystem::path folder_;
     std::filesystem::path home_;    ///< of the scene, or where the program was started
-    std::filesystem::path opened_;  ///< where the last opened file lies: the next is likely there too
+    std::filesystem::path opened_;  ///< folder of the last opened file, where the next one is likely to be
     std::vector<Entry> entries_;
     std::vector<FileKind> kinds_;  ///< kinds that can be opened
     std::string by_;               ///< UiState::browses_for

@@ -23,7 +23,7 @@ std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace,
     return pointer.drags_gizmo() ? lab.shown_gizmo(workspace) : lab.handle(workspace, pointer.dragged());
 }
 
-/// Whether to report the drag: labs report moves of their own handles, but not their rotation.
+/// Whether to report the drag: labs report moves of their own handles, but not rotations.
 bool reports_drag(const Pointer& pointer) {
     const GizmoDrag* drag = pointer.dragged_part();
     return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);

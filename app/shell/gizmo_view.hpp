@@ -10,7 +10,7 @@ namespace tendril::app {
 
 class Pointer;
 
-/// Also draws a label for the size of the drag.
+/// Also labels the drag with its size.
 void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer);
 
 /// The current drag of a part, for the status line: "Turning 35.2° about X."; empty without one.

@@ -19,14 +19,14 @@ class Input {
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
     bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
-    /// Whether the key is held and was not pressed as part of a chord with Ctrl or Alt.
+    /// True if the key is held and was not pressed in a chord with Ctrl or Alt.
     bool held_alone(Key key) const { return held(key) && !in_chord_[static_cast<std::size_t>(key)]; }
     bool ctrl() const { return held(Key::Ctrl); }
     bool shift() const { return held(Key::Shift); }
     bool alt() const { return held(Key::Alt); }
     /// The chord that this tick's event pressed; Key::Unknown if none.
     Chord pressed() const { return pressed_; }
-    /// Whether the key was already down: a repeat.
+    /// True if the key was already down: a repeat.
     bool repeated() const { return repeated_; }
     const std::bitset<static_cast<std::size_t>(Key::Count)>& keys() const { return keys_; }
 

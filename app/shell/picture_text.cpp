@@ -48,7 +48,7 @@ int covered_by(const Rect& box, const DrawList& drawn, const Camera& camera) {
     return count;
 }
 
-/// In order of preference; mirrored about its middle, so that opposite ones are. Titles are at the top.
+/// In order of preference; titles are at the top. Corners i and 3 - i are opposite.
 const std::array<ViewCorner, 4> corners{lower_left, ViewCorner(0.0f, 0.0f), ViewCorner(1.0f, 1.0f),
                                         ViewCorner(1.0f, 0.0f)};
 

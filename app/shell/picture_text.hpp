@@ -25,8 +25,8 @@ class PictureText {
     PictureText(const PictureText&) = delete;
     PictureText& operator=(const PictureText&) = delete;
 
-    /// Counts the strokes that the legend would cover in each corner, so that draw() uses the emptiest corner
-    /// of all pictures of a video. Without this, draw() decides by its first picture.
+    /// Counts the strokes that the legend would cover in each corner, so that draw() uses the corner that is
+    /// emptiest over all pictures of a video. Without this call, draw() chooses by its first picture.
     void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
     /// Draws over the scene, into the bound framebuffer. The panes were drawn with that camera and palette.
     /// The plot is drawn in the corner opposite the legend, unless it would hide much or there are several
@@ -41,7 +41,7 @@ class PictureText {
     glm::ivec2 size_;
     float scale_;
     ImGuiContext* context_;
-    std::array<int, 4> covered_{};     ///< strokes under the legend in each corner, of all pictures so far
+    std::array<int, 4> covered_{};     ///< strokes under the legend in each corner, over all pictures so far
     std::optional<glm::vec2> corner_;  ///< the legend's corner, for all pictures
 };
 

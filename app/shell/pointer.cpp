@@ -46,7 +46,7 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     if (!arguments.empty()) emit.continuously("camera.set", arguments);
 }
 
-/// Whether the view is 2D: without perspective, and square on to a plane that has all handles.
+/// True if the view is 2D: without perspective, and square on to a plane that has all handles.
 bool is_drawing(const Pointer::Scene& scene) {
     const CameraPose& pose = scene.camera.pose();
     constexpr float flat = 1e-3f;  // fraction of the camera's distance

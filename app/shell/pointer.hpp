@@ -1,5 +1,5 @@
-// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It only
-// emits commands.
+// The mouse in the 3D view: hovers, clicks, drags handles, selects by a box, turns and shifts the camera. It
+// only emits commands.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class Pointer {
     std::optional<GizmoPart> hovered_part() const { return picked_part(hovered_); }
     /// The dragged part; null if the handle moves freely.
     const GizmoDrag* dragged_part() const { return gesture_ == Gesture::Drag && by_ ? &*by_ : nullptr; }
-    /// Whether that part belongs to the gizmo and was not drawn by the lab.
+    /// True if that part belongs to the gizmo and was not drawn by the lab.
     bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
     /// The number of dragged handles.
     std::size_t dragged_count() const {

@@ -423,8 +423,8 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
     constexpr float min_view = 0.34f;  // fraction of the width that the middle always keeps
 
-    // Only one panel fits in a narrow window, or with text so large that two would be too narrow for their
-    // labels. It may then be as wide as both.
+    // Only one panel fits in a narrow window, or with text so large that two panels would be too narrow for
+    // their labels. It may then be as wide as both.
     constexpr float narrow = 900.0f, usual_width = 272.0f;
     const float both = std::max(0.0f, (1.0f - min_view) * window.x);
     const bool one_panel = window.x < narrow || 2.0f * usual_width * scale > both;

@@ -1,4 +1,4 @@
-// The window around the labs: bars, panels and overlays, their places, and the sections that unfold for a
+// The window around the labs: bars, panels and overlays, their layout, and the sections that unfold for a
 // card or command. It reads the workspace and emits commands.
 #pragma once
 
@@ -56,9 +56,9 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;                 ///< the effect of the mouse at its position
+    std::string hint;                 ///< the mouse's effect where it is
     const Card* card = nullptr;       ///< the shown card of things to try, if any
-    std::span<const Card> cards{};    ///< all of the lab's
+    std::span<const Card> cards{};    ///< all cards of the lab
     std::span<const Stroke> drawn{};  ///< the scene's strokes in the last picture
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }

@@ -36,7 +36,7 @@ class Ui {
     void end();
     void draw();
 
-    /// Whether the mouse (the keyboard) belongs to a panel instead of the scene.
+    /// True if the mouse (the keyboard) belongs to a panel instead of the scene.
     bool wants_mouse() const;
     bool wants_text() const;
     /// The number being typed, for the program to handle.

@@ -55,7 +55,7 @@ std::wstring wide(const std::string& text) {
     return fs::path(text).wstring();
 }
 
-/// As the C runtime of the other program takes it apart again: backslashes count only before a quotation
+/// Quotes words the way the other program's C runtime splits them: backslashes count only before a quotation
 /// mark.
 std::wstring command_line(const std::vector<std::string>& words) {
     std::wstring line;
@@ -72,7 +72,7 @@ std::wstring command_line(const std::vector<std::string>& words) {
     return line;
 }
 
-/// A file that is gone once it is closed, and that a child may inherit.
+/// A file that is deleted when it is closed; a child may inherit it.
 std::FILE* open_complaints() {
     wchar_t folder[MAX_PATH + 1] = L"", name[MAX_PATH + 1] = L"";
     if (::GetTempPathW(MAX_PATH, folder) == 0 || ::GetTempFileNameW(folder, L"ten", 0, name) == 0)
@@ -122,7 +122,7 @@ class ChildProcess::Running {
         close_input();
         if (!ended()) {
             ::TerminateProcess(process_, 1);
-            constexpr DWORD patience = 5000;  // ms, until its files are closed
+            constexpr DWORD patience = 5000;  // ms to wait until its files are closed
             ::WaitForSingleObject(process_, patience);
         }
         ::CloseHandle(process_);
@@ -133,7 +133,7 @@ class ChildProcess::Running {
     void close_input() {
         if (input_ != nullptr) ::CloseHandle(std::exchange(input_, nullptr));
     }
-    /// A full pipe blocks the thread that writes to it, so another one does, and ending the child frees it.
+    /// A full pipe blocks the writing thread, so another one writes, and ending the child frees it.
     Written write(std::string_view bytes, double seconds) {
         std::atomic<bool> well{true};
         std::atomic<std::size_t> written{0};
@@ -190,8 +190,8 @@ std::FILE* open_complaints() {
     return std::tmpfile();
 }
 
-/// Blocks SIGPIPE while it lives and consumes one that was raised: writing to a program that has ended would
-/// otherwise end this one.
+/// Blocks SIGPIPE during its lifetime and consumes one that was raised: writing to a program that has ended
+/// would otherwise end this one.
 class HeldSigpipe {
   public:
     HeldSigpipe() {
@@ -307,7 +307,7 @@ class ChildProcess::Running {
         id_ = -1;
         return true;
     }
-    /// Why it counts as failed, once it has ended; empty if it does not.
+    /// Once it has ended: why it failed; empty if it succeeded.
     std::string failure() const {
         if (WIFSIGNALED(status_)) return "signal " + std::to_string(WTERMSIG(status_)) + " ended it";
         const int code = WEXITSTATUS(status_);

@@ -33,7 +33,7 @@ class ChildProcess {
     void finish(double seconds);
 
   private:
-    class Running;  ///< the system's side
+    class Running;  ///< the operating system's part
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };

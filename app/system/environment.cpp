@@ -25,7 +25,7 @@
 
 #ifdef __MINGW32__
 /// libstdc++ converts narrow paths with mbrtowc, and msvcrt's does not know UTF-8; the linker calls this one
-/// instead. Outside the first plane, the first byte gives one half of a pair and the other three the second.
+/// instead. Beyond the basic plane, the first byte gives one surrogate and the other three the second.
 extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t size,
                                       std::mbstate_t* state) {
     constexpr std::size_t invalid = static_cast<std::size_t>(-1), incomplete = static_cast<std::size_t>(-2);
@@ -66,7 +66,7 @@ std::string utf8(const wchar_t* text) {
 constexpr std::pair<const char*, const char*> user_settings{"APPDATA", "tendril"};
 constexpr int end_signals[]{SIGINT, SIGTERM, SIGBREAK};
 
-/// Once its console or its user's session is closed, Windows ends a program as soon as the signal's handler
+/// When its console or the user's session closes, Windows ends a program as soon as the signal's handler
 /// returns.
 void wait_when_closed() {
     const auto wait = [](DWORD kind) -> BOOL {
@@ -121,7 +121,7 @@ std::string home_folder() {
 }
 
 void copy_png(std::string_view png) {
-    const UINT format = ::RegisterClipboardFormatA("PNG");  // as browsers and office programs call it
+    const UINT format = ::RegisterClipboardFormatA("PNG");  // its name in browsers and office programs
     const HGLOBAL memory = ::GlobalAlloc(GMEM_MOVEABLE, png.size());
     if (memory == nullptr || ::OpenClipboard(nullptr) == 0) {
         ::GlobalFree(memory);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 #ifdef _WIN32
 namespace {
 
-/// Others may read, write, rename and delete what this program has open, as on other systems.
+/// Other programs may read, write, rename and delete files that this one has open, as on other systems.
 constexpr DWORD share_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
 HANDLE handle_of(std::intptr_t handle) {
@@ -44,7 +44,7 @@ FileStamp stamp_of(HANDLE handle) {
     BY_HANDLE_FILE_INFORMATION found{};
     if (::GetFileInformationByHandle(handle, &found) == 0) return {};
     const auto whole = [](DWORD high, DWORD low) { return std::uint64_t{high} << 32 | low; };
-    // Windows counts 100 ns from the year 1601.
+    // Windows counts units of 100 ns from the year 1601.
     constexpr std::int64_t ticks = 10'000'000, unix_start = 11'644'473'600;
     const auto time = static_cast<std::int64_t>(
         whole(found.ftLastWriteTime.dwHighDateTime, found.ftLastWriteTime.dwLowDateTime));
@@ -90,13 +90,13 @@ bool SystemFile::write(std::string_view bytes) {
 }
 
 bool SystemFile::try_lock(bool shared) {
-    // Windows keeps others from reading and writing the bytes that are locked: one far past the end stands
-    // for all.
+    // Windows stops others from reading and writing locked bytes, so lock one byte far past the end.
     OVERLAPPED far_away{};
     far_away.OffsetHigh = 1 << 30;
     const DWORD kind = LOCKFILE_FAIL_IMMEDIATELY | (shared ? 0 : LOCKFILE_EXCLUSIVE_LOCK);
     if (::LockFileEx(handle_of(handle_), kind, 0, 1, 0, &far_away) != 0) return true;
-    if (::GetLastError() == ERROR_LOCK_VIOLATION) ::SetLastError(WSAEWOULDBLOCK);  // as other systems say it
+    if (::GetLastError() == ERROR_LOCK_VIOLATION)
+        ::SetLastError(WSAEWOULDBLOCK);  // the code of a taken lock elsewhere
     return false;
 }
 
@@ -106,7 +106,7 @@ bool SystemFile::has_name(const fs::path& path) const {
 }
 
 bool SystemFile::copy_permissions(const fs::path&) {
-    return true;  // the folder gives them
+    return true;  // permissions come from the folder
 }
 
 bool SystemFile::sync() {
@@ -114,7 +114,7 @@ bool SystemFile::sync() {
 }
 
 bool replace_file(const fs::path& from, const fs::path& to) {
-    // While somebody reads the old file, a virus scanner say, Windows does not let it go.
+    // While another program, such as a virus scanner, reads the old file, Windows does not replace it: retry.
     constexpr DWORD pause = 20, tries = 50;  // ms; a second in all
     for (DWORD i = 0; i < tries; ++i) {
         if (::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) != 0)
@@ -150,7 +150,7 @@ std::FILE* open_to_read(const fs::path& path) {
     return ::_wfopen(path.c_str(), L"rb");
 }
 
-// Ctrl+C runs its handler in a thread of its own, and the handler only sets a flag.
+// Ctrl+C runs its handler in a separate thread, and the handler only sets a flag.
 struct SignalsWait::Before {};
 SignalsWait::SignalsWait() = default;
 SignalsWait::~SignalsWait() = default;
@@ -232,7 +232,7 @@ bool SystemFile::sync() {
 
 bool replace_file(const fs::path& from, const fs::path& to) {
     if (::rename(from.c_str(), to.c_str()) != 0) return false;
-    // The rename has succeeded; a file system that cannot sync a folder is no error.
+    // The rename has succeeded; a file system that cannot sync a folder is not an error.
     const fs::path folder = to.has_parent_path() ? to.parent_path() : fs::path(".");
     if (const int handle = open_handle(folder, O_RDONLY | O_DIRECTORY); handle >= 0) {
         ::fsync(handle);
@@ -304,7 +304,7 @@ std::unique_ptr<FileLock> FileLock::take(const std::filesystem::path& path) {
     for (int i = 0; i < tries; ++i) {
         SystemFile file = SystemFile::open_or_create(path);
         if (!file || !file.try_lock()) return nullptr;
-        // The last holder may have removed the file since it was opened: the lock is then on a file that
+        // The last holder may have removed the file after we opened it: the lock would then be on a file that
         // nobody else can find.
         if (file.has_name(path)) return std::unique_ptr<FileLock>(new FileLock(path, std::move(file)));
     }

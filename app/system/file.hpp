@@ -1,5 +1,5 @@
-// Files as the operating system has them: locked, synced, renamed, told apart. The files that the program
-// saves are made of these in document/atomic_file.hpp.
+// Files of the operating system: locking, syncing, renaming, identity. document/atomic_file.hpp uses these to
+// save files.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace tendril::app {
 
-/// Why the last call below failed.
+/// Reason why the last call below failed.
 std::error_code last_error();
 
 /// An open file, closed by its destructor. Calls return false on failure; last_error() then says why.
 class SystemFile {
   public:
-    /// A new file, to be written. Fails if `path` exists.
+    /// Creates a file for writing. Fails if `path` exists.
     static SystemFile create(const std::filesystem::path& path);
-    /// A file to be locked, made if it is missing. On Linux only this user may read it.
+    /// Opens a file to lock, and creates it if it is missing. On Linux only this user may read it.
     static SystemFile open_or_create(const std::filesystem::path& path);
-    /// An existing file. Follows no symbolic link and never waits.
+    /// Opens an existing file. Follows no symbolic link and never waits.
     static SystemFile open(const std::filesystem::path& path);
-    /// A pipe or a device, to be written. Waits up to 5 s for somebody to read from a pipe.
+    /// Opens a pipe or a device for writing. Waits up to 5 s for a reader of a pipe.
     static SystemFile open_stream(const std::filesystem::path& path);
 
     SystemFile() = default;
@@ -38,14 +38,14 @@ class SystemFile {
     explicit operator bool() const { return handle_ != none; }
     void close();
     bool write(std::string_view bytes);
-    /// Locks it until it is closed, or the program ends in whatever way; false if another holder has it. A
-    /// shared lock only keeps out one that is not.
+    /// Locks it until it is closed or the program ends for any reason; false if another holder has it. A
+    /// shared lock only excludes exclusive ones.
     bool try_lock(bool shared = false);
-    /// Whether `path` still names this file.
+    /// True if `path` still names this file.
     bool has_name(const std::filesystem::path& path) const;
     /// Takes the permissions of the file at `path`, if there is one.
     bool copy_permissions(const std::filesystem::path& path);
-    /// Returns once all that was written is on disk.
+    /// Returns once all written data is on disk.
     bool sync();
 
   private:
@@ -60,7 +60,7 @@ class FileLock {
   public:
     /// Creates and locks the file; null if another holder has it or it cannot be created.
     static std::unique_ptr<FileLock> take(const std::filesystem::path& path);
-    /// Whether any program holds it, including this one.
+    /// True if any program holds it, including this one.
     static bool is_held(const std::filesystem::path& path);
 
     FileLock(const FileLock&) = delete;
@@ -77,10 +77,10 @@ class FileLock {
 /// Renames a file over another and syncs their folder. `from` may be open here.
 bool replace_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Whether an existing file may be written to; true for a missing one.
+/// True if an existing file may be written to; true for a missing one.
 bool may_write(const std::filesystem::path& path);
 
-/// Changes whenever another program writes the file. All 0: there is no file.
+/// Changes whenever another program writes the file. All 0: no file.
 struct FileStamp {
     std::uint64_t device = 0, file = 0, size = 0;
     std::int64_t seconds = 0, nanoseconds = 0;  ///< last written, Unix time
@@ -88,14 +88,14 @@ struct FileStamp {
 };
 FileStamp file_stamp(const std::filesystem::path& path);
 
-/// Waits until there is something to read from a named pipe; throws std::runtime_error after 5 s without.
-/// Null for anything else. Release the result once the pipe is opened to read.
+/// Waits until a named pipe has something to read; throws std::runtime_error after 5 s. Null for any other
+/// file. Release the result once the pipe is open for reading.
 [[nodiscard]] std::shared_ptr<void> await_pipe(const std::filesystem::path& path);
 
 /// Opens a file for std::fread; null on failure, with errno.
 std::FILE* open_to_read(const std::filesystem::path& path);
 
-/// Signals that would end the program wait as long as this lives.
+/// Delays signals that would end the program during its lifetime.
 class SignalsWait {
   public:
     SignalsWait();

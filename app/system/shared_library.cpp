@@ -45,7 +45,7 @@ SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
     throw std::runtime_error("none of these libraries could be opened: " + tried);
 }
 
-// Stays open on purpose: Mesa's compiler threads and exit handlers don't survive being unloaded.
+// Never unloaded: Mesa's compiler threads and exit handlers would not survive it.
 SharedLibrary::~SharedLibrary() = default;
 
 void* SharedLibrary::find(const char* name) const {

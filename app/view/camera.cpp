@@ -36,9 +36,8 @@ Rect in_range(const Rect& viewport) {
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
-/// Tangent of half the vertical field of view. In views narrower than 5:4 the field's width is kept instead
-/// of its height, so that a scene that fits a wide window still fits when panels or large text make the view
-/// narrow.
+/// Tangent of half the vertical field of view. Views narrower than 5:4 keep the field's width instead of its
+/// height, so that a scene that fits a wide window still fits when panels or large text make the view narrow.
 float half_field(const CameraPose& pose, float aspect) {
     constexpr float narrow = 1.25f, widest = 4.0f;
     return std::tan(0.5f * pose.field_of_view) * std::clamp(narrow / aspect, 1.0f, widest);

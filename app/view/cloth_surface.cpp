@@ -119,9 +119,9 @@ class ClothSurface {
         }
     }
 
-    /// Casts the shadow of a few bars that nearly touch, since many thin ones would let too much of the sky
-    /// through; close to the ground they are no thicker than their height, so that the shadow ends where the
-    /// cloth ends.
+    /// Casts the shadow of a few bars that nearly touch: many thin ones would let too much of the sky
+    /// through. Close to the ground the bars are no thicker than their height, so that the shadow ends where
+    /// the cloth ends.
     void shadows() {
         constexpr std::uint32_t bars = 7;
         const std::uint32_t step = std::max((std::max(columns_, rows_) + bars - 1) / bars, 1u);

@@ -32,7 +32,7 @@ struct Stroke {
     glm::vec3 a{0.0f}, b{0.0f};
     float radius_a = 1.0f, radius_b = 1.0f;
     glm::vec4 colour{1.0f};  ///< alpha 0: not drawn, but still picked and casting a shadow
-    glm::vec3 normal{0.0f};  ///< the surface's: unit, or the mean of several; only for Shade::Edge
+    glm::vec3 normal{0.0f};  ///< the surface's unit normal, or the mean of several; only for Shade::Edge
     /// Shift of the cuts at a and b along the line, per pixel to its left; only for Shade::Edge.
     glm::vec2 mitre{0.0f};
     float ring_width = 0.0f;  ///< pixels; only for Shade::Ring

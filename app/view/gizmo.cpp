@@ -391,7 +391,7 @@ std::optional<glm::vec3> GizmoDrag::facing(const Ray& ray) const {
 }
 
 /// A point at distance t along an axis of slant p appears at m = t p / (1 + t a / d) in the plane that faces
-/// the eye, where a is the axis's component away from the eye and d the distance to the eye. Solved for t.
+/// the eye; a is the axis's component away from the eye, d the distance to the eye. Solves for t.
 float GizmoDrag::along_axis(glm::vec3 at, glm::vec3 axis) const {
     const float away = glm::dot(axis, sight_);
     const glm::vec3 across = axis - away * sight_;

@@ -88,9 +88,9 @@ void draw_gizmo(DrawList& list, const Gizmo& gizmo, const Camera& camera, const 
 /// Dragging one part of a gizmo: converts lines of sight to frames, without window or drawing.
 ///
 /// Everything is measured in the plane through the centre that faces the eye, which every line of sight meets
-/// nearby. Points on an axis or plane follow from there by perspective, so the grabbed point stays under the
-/// pointer. Where an axis points at the eye, a plane is edge-on, or the pointer nears a plane's horizon, one
-/// pixel would span kilometres; there the drag continues linearly. So a small move of the pointer is always a
+/// nearby. Points on an axis or plane follow from it by perspective, so the grabbed point stays under the
+/// pointer. If an axis points at the eye, a plane is edge-on, or the pointer nears a plane's horizon, one
+/// pixel would span kilometres; the drag then continues linearly. So a small move of the pointer is always a
 /// small move of the frame.
 class GizmoDrag {
   public:
@@ -124,7 +124,7 @@ class GizmoDrag {
 
     GizmoPart part_;
     HandleFrame from_, last_;
-    glm::vec3 axis_, u_, v_;  ///< the part's axis (along, about, or the plane's normal) and the two others
+    glm::vec3 axis_, u_, v_;  ///< the part's axis (along, about, or the plane's normal) and the other two
     glm::vec3 sight_;         ///< unit, from the eye to the centre
     float distance_ = 1.0f;   ///< from the eye to the centre
     float inverse_distance_ = 0.0f;  ///< inverse distance; 0 if lines of sight are parallel

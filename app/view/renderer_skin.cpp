@@ -115,7 +115,7 @@ class SkinPass::Sent {
     }
 
   private:
-    /// Returns false if there are no values; bind() then sets a constant instead.
+    /// Returns false if there are no values; bind() then sets a constant.
     template <class T>
     bool send(Slot slot, const std::vector<T>& values, GLenum use = GL_STATIC_DRAW) {
         if (values.empty()) return false;

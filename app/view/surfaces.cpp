@@ -102,7 +102,7 @@ glm::vec3 turned(glm::vec3 vector, glm::vec3 from, glm::vec3 to) {
 }
 
 glm::vec3 first_normal(glm::vec3 tangent) {
-    // No rule is continuous for all tangents. This one is discontinuous only opposite to `pole`, an unlikely
+    // No rule is continuous for all tangents. This one is discontinuous only opposite `pole`, an unlikely
     // direction for a rope.
     const glm::vec3 pole(0.60f, 0.64f, 0.48f), across(-0.80f, 0.48f, 0.36f);
     if (glm::dot(pole, tangent) < -0.9999f) return across;
@@ -319,8 +319,8 @@ void set_frames(std::span<CurvePoint> points) {
         const CurvePoint& from = points[i - 1];
         CurvePoint& to = points[i];
         glm::vec3 normal = from.normal, tangent = from.tangent;
-        // Reflected in the plane halfway between the two points, then in the one that maps the tangent to the
-        // next one.
+        // Reflected in the plane halfway between the two points, then in the plane that maps its tangent to
+        // the next one.
         const glm::vec3 step = to.at - from.at;
         if (const float squared = glm::dot(step, step); squared > 0.0f) {
             normal -= 2.0f / squared * glm::dot(step, normal) * step;
@@ -396,7 +396,8 @@ void Edges::join() {
         meet(outline.b, outline.a);
     }
     for (const Joined& outline : joined_) {
-        // Seen from b, left and right swap and so do forwards and backwards: the lean has the same sign.
+        // Seen from b, left and right are swapped, and so are forwards and backwards: the lean keeps its
+        // sign.
         list_.strokes[outline.stroke].mitre = {mitre_at(outline.a, outline.b),
                                                mitre_at(outline.b, outline.a)};
     }

@@ -3,7 +3,7 @@
 // the edges for this camera and cast the shadow on the ground; none can be picked. Balls and capsules are
 // strokes, not surfaces.
 //
-// The output is always finite: points that are not, or have a coordinate beyond 1e9, are omitted.
+// The output is always finite: points that are not finite, or have a coordinate beyond 1e9, are omitted.
 // Deterministic. Lengths are in metres, colours in sRGB.
 #pragma once
 
@@ -104,7 +104,7 @@ struct CurveSpan {
 
     glm::vec3 at(float t) const;
     glm::vec3 slope(float t) const;
-    /// Approximate turning angle in radians: from the first direction to the chord's, and on to the last.
+    /// Approximate turning angle in radians: from the first direction to the chord's, then to the last.
     float turn() const;
 };
 
@@ -134,7 +134,7 @@ class Edges {
     glm::vec3 to_eye(glm::vec3 point) const {
         return camera_.pose().orthographic ? -camera_.forward() : camera_.eye() - point;
     }
-    /// Whether a face with this normal, through this point, faces the eye.
+    /// True if a face with this normal, through this point, faces the eye.
     bool front(glm::vec3 normal, glm::vec3 point) const { return glm::dot(normal, to_eye(point)) > 0.0f; }
 
     /// `width` in metres at a point.
@@ -150,7 +150,7 @@ class Edges {
     void crease(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
 
     /// A round piece so thin that one shade suffices. Consecutive pieces with the same tangent at their joint
-    /// show no seams, even where they are so thin that they fade.
+    /// show no seam, even when they are so thin that they fade.
     void thread(glm::vec3 a, glm::vec3 b, glm::vec3 tangent_a, glm::vec3 tangent_b, float radius,
                 glm::vec3 colour);
 

@@ -30,11 +30,11 @@ class TubeSkin {
 
     TubeSkin(DrawList& list, const Camera& camera, int sides);
 
-    /// Omits sides that face away from the eye: the tube is closed, so they are invisible.
+    /// Omits sides that face away from the eye: the tube is closed, so they cannot be seen.
     void cover(std::span<const Ring> rings);
 
   private:
-    /// Inside: in bends sharper than the tube's radius the inner side lies inside the tube.
+    /// Inside: in bends sharper than the tube's radius, the inner side lies within the tube.
     enum class Facing : std::uint8_t { Away, Front, Inside };
     using PerSide = std::array<Facing, max_sides>;
 
@@ -69,7 +69,7 @@ class Tube {
     }
 
   private:
-    /// Keeps the centres that are finite and not too close to the previous one to matter.
+    /// Keeps the centres that are finite and far enough from the previous one to matter.
     void keep(std::span<const glm::vec3> centres, std::span<const glm::vec3> colours) {
         for (std::size_t i = 0; i < centres.size(); ++i) {
             const glm::vec3 centre = centres[i];
@@ -203,8 +203,8 @@ class Tube {
     std::vector<Ring> circles_, rings_;  ///< along the curve; the same with caps
 };
 
-/// The ball's normal at the point seen in line with the point that has `normal` on a concentric ball `part`
-/// times as large. The mesh is smaller than the tube by its outline, which the shading must not show.
+/// The ball's normal at the point in line with the point of `normal` on a concentric ball `part` times as
+/// large. The mesh is smaller than the tube by its outline, which the shading must not show.
 glm::vec3 within(glm::vec3 normal, glm::vec3 sight, float part) {
     const float towards = glm::dot(normal, sight);
     const glm::vec3 across = part * (normal - towards * sight);
@@ -282,8 +282,8 @@ TubeSkin::Facing TubeSkin::facing(std::uint32_t a, std::uint32_t b, std::uint32_
     return edges_.front(normal, at(a)) ? Facing::Front : Facing::Away;
 }
 
-/// Appends a triangle whose front is on the side of its normals. In a bend too sharp for the tube some
-/// triangles are inside out, and a pixel of them may show between the others.
+/// Appends a triangle whose front is on the side of its normals. In bends too sharp for the tube some
+/// triangles are inside out; single pixels of them may show between the others.
 void TubeSkin::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::vector<Vertex>& v = list_.mesh.vertices;
     const bool front = edges_.front(glm::cross(at(b) - at(a), at(c) - at(a)), at(a));

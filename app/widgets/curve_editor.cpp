@@ -31,8 +31,8 @@ class Editor {
         left_ -= side, right_ += side;
     }
 
-    /// The visible range of time and value. It follows from the keys, but is frozen during a drag, since
-    /// otherwise a position would mean a different value in every frame.
+    /// The visible range of time and value. It follows the keys, but is frozen during a drag: otherwise a
+    /// position would mean a different value in every frame.
     struct View {
         double left = 0.0, right = 1.0, low = 0.0, high = 1.0;
     };
@@ -129,7 +129,7 @@ class Editor {
     ImVec2 key_place(int i) const { return place(key_at(i).time, key_at(i).value); }
     bool leaves(int i) const { return key_at(i).piece == signal::Piece::Cubic && i + 1 < count(); }
     bool arrives(int i) const { return i > 0 && key_at(i - 1).piece == signal::Piece::Cubic; }
-    /// At a fixed distance from its key, regardless of the slope.
+    /// At a fixed distance from its key, whatever the slope.
     ImVec2 tangent_end(int i, double side) const {
         const signal::CurveKey& key = key_at(i);
         const double slope = side > 0.0 ? key.leave : key.arrive;

@@ -43,7 +43,7 @@ std::string range_text(const RowAbove& row) {
     return unit == " m" ? " In metres." : " In " + unit.substr(unit.find_first_not_of(' ')) + '.';
 }
 
-/// Whether the last item is a field of that row, or follows the field in it.
+/// True if the last item is the row's field, or follows it in the same row.
 bool in_row(const RowAbove& row) {
     const ImVec2 at = ImGui::GetItemRectMin();
     return row.frame == ImGui::GetFrameCount() && at.x > row.field.x - 0.5f &&

@@ -34,16 +34,15 @@ struct [[nodiscard]] PanelSection {
 bool section_button(const char* title, bool open);
 /// The panel's main message, wrapped, in the largest text.
 void verdict(const std::string& text, glm::vec3 colour);
-/// The height of a verdict of so many lines.
+/// The height of a verdict with that many lines.
 float verdict_height(int lines);
 /// Dim text, wrapped.
 void note(const std::string& text);
 void coloured_note(const std::string& text, glm::vec3 colour);
 
-// Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp). They
-// are emitted even if out of range: the command refuses them with a message that gives the value and the
-// range.
-/// `at_zero`, if given, is shown instead of 0: "never".
+// Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp), even
+// out of range: the command then refuses them with a message that gives the value and the range. `at_zero`,
+// if given, is shown instead of 0: "never".
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format,
                   const char* at_zero = nullptr);
 bool integer_field(const char* name, int& value, int low, int high);
@@ -64,12 +63,12 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most = 1
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
 /// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is over them: a
-/// click that removes a row must not move the next rows under the mouse. They are at least `min_height`
-/// pixels high.
+/// click that removes a row must not move the next rows under the mouse. Reserves at least `min_height`
+/// pixels.
 void keep_room(const char* id, float top, float min_height = 0.0f);
-/// The height of so many lines of dim text.
+/// The height of `lines` lines of dim text.
 float note_height(int lines);
-/// A note that appears and disappears, in space for so many lines; empty: no note.
+/// A note that comes and goes, in space reserved for `lines` lines. Empty text: no note.
 void kept_note(const char* id, const std::string& text, int lines);
 /// A radio button: one of several exclusive options.
 bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
@@ -116,7 +115,7 @@ struct SearchText {
 };
 /// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared the text.
 bool search_line(const char* id, const char* hint, SearchText& typed);
-/// Whether `text` contains `part`, ignoring case.
+/// True if `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);
 
 /// The open list or menu: at most one is open.

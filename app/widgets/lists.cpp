@@ -43,7 +43,7 @@ void draw_swatch(ImDrawList& list, ImVec2 low, ImVec2 high, glm::vec3 colour) {
                        ImGui::GetColorU32({colour.r, colour.g, colour.b, 1.0f}), 0.2f * size);
 }
 
-/// The line to type into stays above the rows, which scroll.
+/// The line to type into stays above the scrolling rows.
 void begin_rows(const ListRoom& room, bool in_field) {
     OpenList& list = open_list();
     if (ImGui::IsWindowAppearing()) {

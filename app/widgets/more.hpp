@@ -1,5 +1,5 @@
 // A section's rarely needed rows. They are collected while the section is drawn and come last, below a
-// heading "More" that is folded at first. The heading counts the values that differ from their defaults.
+// heading "More" that starts folded. The heading counts the values that differ from their defaults.
 #pragma once
 
 #include <functional>

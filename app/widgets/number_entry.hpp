@@ -34,7 +34,7 @@ struct TextEditing {
     int frame = 0;    ///< the last frame in which it was drawn
     std::array<char, 1024> text{}, before{};
     unsigned wanted = 0;   ///< the field that is about to take the keyboard
-    int wanted_until = 0;  ///< the last frame in which it may
+    int wanted_until = 0;  ///< the last frame in which it may take it
 };
 
 /// The state of number fields: the one being edited, and its text. ImGui's UserData points to it.

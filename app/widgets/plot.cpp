@@ -261,8 +261,8 @@ class Plot {
         for (const ImVec2 p : points) list_->AddCircleFilled(p, size, colour);
     }
 
-    /// Draws pieces that end where the line reverses: there Dear ImGui's joints would have no width, and a
-    /// fast swing would be a cloud of dots.
+    /// Draws separate pieces where the line reverses: Dear ImGui's joints would have no width there, and a
+    /// fast swing would look like a cloud of dots.
     void polyline(const std::vector<ImVec2>& points, ImU32 colour, float width) {
         std::size_t begin = 0;
         for (std::size_t i = 1; i < points.size(); ++i) {
@@ -284,7 +284,8 @@ class Plot {
         }
     };
 
-    /// Names beside single points where there is room, in order, covering neither each other nor a point.
+    /// Writes names beside single points where there is room, in order, covering neither each other nor a
+    /// point.
     void names() {
         std::vector<Box> taken;
         const float unit = ImGui::GetFontSize();

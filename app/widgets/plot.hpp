@@ -39,9 +39,9 @@ struct PlotAxes {
     float left = 0.0f, right = 0.0f;
     bool whole_x = false;    ///< x is a count: marks at whole numbers only
     bool reads_all = false;  ///< the mouse reads every curve at its x instead of the nearest point
-    bool named = false;      ///< writes the names of single-point curves, where there is room
+    bool named = false;      ///< writes the names of single-point curves where there is room
     /// For plots that the user draws into: low_y, high_y, from_x and min_x are frozen while the mouse button
-    /// is down, since otherwise a position would mean a different value in every frame.
+    /// is down: otherwise a position would mean a different value in every frame.
     bool keeps_axes = false;
 };
 

@@ -59,7 +59,7 @@ class Strip {
         free_from_ = left + wide + 6.0f * unit();
     }
     void head(float share) { played(0.0f, share, share); }
-    /// Draws the line from `begin` to the head at `share`, and faintly on to `known`.
+    /// Draws the line from `begin` to the head at `share`, then faintly up to `known`.
     void played(float begin, float share, float known) {
         const float x = from_ + span_ * share;
         const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
@@ -135,8 +135,8 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
         step = static_cast<int>(std::lround(share * static_cast<float>(last)));
         if (ends.empty() || ends.back() == 0) step = 0;
     }
-    // A mark at each iteration's end, numbered where there is room. Of many iterations only every second,
-    // fifth, tenth, ... is marked or numbered, so that neither runs together.
+    // A mark at each iteration's end, numbered where there is room. Among many iterations only every second,
+    // fifth, tenth, ... is marked or numbered, so that marks and numbers do not run together.
     const float apart = strip.span() / std::max(1.0f, static_cast<float>(ends.size()) - 1.0f);
     const std::size_t marked = round_stride(4.0f * Strip::unit() / apart),
                       numbered = round_stride(60.0f * Strip::unit() / apart);

@@ -35,7 +35,7 @@ struct TimeStrip {
 struct TimeStripUse {
     bool moved = false;               ///< the user moved the head in this frame
     int hovered = -1;                 ///< the tick under the mouse; -1 if none
-    int on_mark = -1;                 ///< the mark under the mouse, a large one before others; -1 if none
+    int on_mark = -1;                 ///< the mark under the mouse, large ones preferred; -1 if none
     bool mark_clicked = false;        ///< in this frame; the head does not move
     float left = 0.0f, right = 0.0f;  ///< ends of its line, in window pixels
 };

@@ -35,7 +35,7 @@ TooltipRoom room_in_middle(const Rect& item) {
     return {{numbers.middle_min, numbers.middle_max}, item, 1};
 }
 
-/// Whether the last item is in a sheet or a list, over panels and bars.
+/// True if the last item is in a sheet or a list, over panels and bars.
 bool floats() {
     return (ImGui::GetCurrentWindowRead()->RootWindow->Flags & ImGuiWindowFlags_NoBringToFrontOnFocus) == 0;
 }
@@ -116,7 +116,7 @@ Tooltip::~Tooltip() {
 
 namespace {
 
-/// Whether the item was clicked; its tooltip then stays hidden until the mouse has left, to show the result.
+/// True if the item was clicked; its tooltip then stays hidden until the mouse has left, to show the result.
 bool was_clicked() {
     const double hovered_since =
         ImGui::GetTime() - static_cast<double>(ImGui::GetCurrentContext()->HoveredIdTimer);

@@ -1,8 +1,8 @@
-// Tooltips, placed so that none hides the item under the mouse or the next ones; and text cut to a width,
-// which a tooltip shows in full.
+// Tooltips, placed so that they hide neither the item under the mouse nor the next ones; and text cut to a
+// width, which a tooltip shows in full.
 //
-// A panel's or a bar's tooltip is beside the panel, over the middle of the window; a sheet's or a list's is
-// beside the sheet. In the middle of the window it is below or above its item, or in the corner of a plot.
+// The tooltip of a panel or bar is beside the panel, over the middle of the window; that of a sheet or list
+// is beside the sheet. In the middle of the window it is below or above its item, or in the corner of a plot.
 #pragma once
 
 #include <string>
@@ -38,7 +38,7 @@ void text_elided(const std::string& text, float width, bool dim = false);
 /// Writes the text right-aligned in the remaining width, so that digits line up.
 void text_flush_right(const std::string& text, bool dim = false);
 
-/// Whether Escape was pressed in this frame.
+/// True if Escape was pressed in this frame.
 bool escape_pressed();
 void close_popup_on_escape();
 

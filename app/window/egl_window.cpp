@@ -7,7 +7,7 @@
 #include "app/window/offscreen_window.hpp"
 
 #ifdef TENDRIL_HAS_EGL
-#define EGL_NO_X11  // keeps X11's macros out
+#define EGL_NO_X11  // keeps X11's macros out of this file
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 

@@ -58,7 +58,7 @@ GLFWwindow* open_hidden(glm::ivec2 size) {
     return window;
 }
 
-/// A window that is never shown: a context to draw off screen with, where nothing else gives one.
+/// A window that is never shown: a context to draw off screen when no other backend provides one.
 class HiddenContext {
     Library library_;
     GLFWwindow* window_ = open_hidden({64, 64});  // glfwTerminate() closes it

@@ -1,5 +1,5 @@
-// Shared by windows without a screen: they have no events, the clipboard is a string, and they draw into a
-// framebuffer object, so that the picture does not depend on how the context is created.
+// Code shared by windows without a screen: they have no events, their clipboard is a string, and they draw
+// into a framebuffer object, so the picture does not depend on how the context was created.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ class OffscreenFramebuffer {
 
     unsigned name() const { return framebuffer_; }
     glm::ivec2 size() const { return size_; }
-    /// Throws std::runtime_error if the driver has not enough memory.
+    /// Throws std::runtime_error if the driver does not have enough memory.
     void resize(glm::ivec2 size);
 
   private:

@@ -1,4 +1,4 @@
-// A window with a GL 3.3 core context and events, on or off screen, by GLFW, EGL or OSMesa. The frame loop
+// A window with a GL 3.3 core context and events, on or off screen, using GLFW, EGL or OSMesa. The frame loop
 // (app.cpp) runs the same code on each.
 #pragma once
 

@@ -55,7 +55,7 @@ class Writer {
   private:
     static std::string number(double value) {
         char text[40];
-        std::snprintf(text, sizeof text, "%.9g", value);  // NaN is written as nan, which is read
+        std::snprintf(text, sizeof text, "%.9g", value);  // NaN is written as nan, which tendril trace reads
         return text;
     }
     static std::string point(double x, double y, double z) {

@@ -6,7 +6,7 @@
 // with a note, the deviations of some programs: more or fewer rows than the declared frames, other blanks
 // around the colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
 //
-// A file does not say whether the root's position replaces its OFFSET too, which axis is up or how long its
+// A file does not say whether the root's position also replaces its OFFSET, which axis is up, or how long its
 // unit is: judge_space() finds out. Memory stays below a constant times the file's size.
 #pragma once
 
@@ -24,8 +24,8 @@ Character parse_bvh(std::string_view text, const std::string& name, LoadProgress
 
 /// Decides what a file leaves open: which axis points up, whether a root's positions replace its OFFSET or
 /// are added to it, how long its unit is, and how the figure stands at rest. Judges by the zero pose and the
-/// motion together if it finds legs and a head; without them Y is up, positions replace the OFFSET, and only
-/// the unit is guessed.
+/// motion together if it finds legs and a head; otherwise Y is up, positions replace the OFFSET, and only the
+/// unit is guessed.
 ///
 /// `nodes` rest in the zero pose, at their OFFSETs. `character` has the motion and the root offsets in the
 /// file's units and axes, with the roots' positions unchanged. Sets the scale, the space and the skeleton,

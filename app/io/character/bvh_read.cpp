@@ -77,7 +77,7 @@ class Words {
             if (static_cast<unsigned char>(c) < ' ') c = '?';
         return '"' + text + '"';
     }
-    /// Whether nothing but blanks follows on this line.
+    /// True if nothing but blanks follows on this line.
     bool at_line_end() const {
         const std::size_t end = std::min(text_.find_first_not_of(" \t\v\f", at_), text_.size());
         return end == text_.size() || text_[end] == '\n' || text_[end] == '\r';
@@ -100,8 +100,8 @@ class Words {
         ++at_;
         return is_tight && at_ < text_.size() && is_blank(text_[at_]);
     }
-    /// Reads the numbers of a frame, which begins and ends with a line. False if the file is cut off in it
-    /// and `may_be_cut`.
+    /// Reads the numbers of a frame, which begins and ends with a line. False if the file ends within it and
+    /// `may_be_cut`.
     bool row(std::vector<double>& numbers, bool may_be_cut) {
         const std::size_t width = numbers.size();
         skip_blanks();
@@ -258,7 +258,7 @@ bool turns(const BvhJoint& joint) {
     return std::any_of(joint.channels.begin(), joint.channels.end(), [](int each) { return each >= 3; });
 }
 
-/// Skips whole rows beyond the declared ones, and notes how many more or fewer rows there are: some programs
+/// Skips whole rows beyond the declared ones, and notes how many rows are extra or missing: some programs
 /// count one too few, and takes are cut short.
 void compare_rows(Words& words, std::size_t frames, std::size_t declared, std::vector<double>& row,
                   std::vector<std::string>& notes) {

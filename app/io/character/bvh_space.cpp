@@ -19,7 +19,7 @@ using humanoid::Placement;
 using humanoid::Skeleton;
 
 constexpr std::size_t axis_count = 6, max_looked_at = 200;
-/// Minimum cosine between an axis and the legs and spine of a figure that stands: at rest, in motion.
+/// Minimum cosine between an axis and the legs and spine of a standing figure: at rest, in motion.
 constexpr double stands_at_rest = 0.7, stands = 0.6;
 /// Feet on a floor may be above or below 0 by this fraction of the figure's height.
 constexpr double near_floor = 0.1;
@@ -78,7 +78,7 @@ std::optional<Body> body_in(const Skeleton& skeleton, const humanoid::BoneMap& m
 /// The measures of a pose that show how it stands.
 struct Look {
     glm::dvec3 legs{0.0}, spine{0.0};  ///< from feet to thighs and from hips to head; 1: straight
-    glm::dvec3 spread{0.0};            ///< from the right foot to the left, less the same for the thighs
+    glm::dvec3 spread{0.0};            ///< from the right foot to the left, minus the same for the thighs
     glm::dvec3 low{0.0}, high{0.0};    ///< the box around all nodes
 
     /// 1: straight and along the axis.
@@ -197,7 +197,7 @@ class Judge {
             std::ranges::count_if(looks_, [&](const Look& each) { return each.standing(up) >= stands; });
         return static_cast<double>(standing) / static_cast<double>(looks_.size());
     }
-    /// The median distance of the lowest point from 0, in heights of the figure.
+    /// The median distance of the lowest point from 0, in multiples of the figure's height.
     double off_floor(UpAxis up, Positions positions) const {
         const double raised = positions == Positions::Add ? glm::dot(offset_, direction(up)) : 0.0;
         std::vector<double> off;
@@ -222,7 +222,7 @@ class Judge {
         rest_up_ = at_rest;
         up_ = at_rest.value_or(share(moving) >= 0.3 ? moving : UpAxis::Y);
         if (at_rest && *at_rest != moving && share(moving) >= 0.6) {
-            // Decide between the two by the floor. A figure lying on the floor does not stand, either.
+            // Decide between the two by the floor: a figure lying on it does not stand, either.
             const double by_rest = off_floor(*at_rest), by_motion = off_floor(moving);
             const bool floor_at_rest = by_rest < near_floor && by_rest < by_motion;
             if (!floor_at_rest && (share(*at_rest) < 0.1 || by_motion + near_floor < by_rest)) up_ = moving;
@@ -272,7 +272,7 @@ class Judge {
         sample_frame(index);
         stand_straight();
         for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].rest = pose_[i];
-        // Place it above the origin, at its height in the motion, or else on the floor.
+        // Place it above the origin, at its height in the motion or, failing that, on the floor.
         const glm::dvec3 axis = direction(up_);
         const double added = space_.positions == Positions::Add ? glm::dot(offset_, axis) : 0.0;
         glm::dvec3& at = nodes_[body_->root].rest.translation;
@@ -282,8 +282,8 @@ class Judge {
                                    std::to_string(frame_of(index)) + " of the motion, on straight legs.");
     }
 
-    /// Makes a frame a rest pose: facing +Z of a file with Y up, legs straight, feet pointing forward, 30
-    /// degrees below level, toes level. The heading and footing of a single frame say nothing about the
+    /// Turns a frame into a rest pose: facing +Z of a file with Y up, legs straight, feet pointing forward,
+    /// 30 degrees below level, toes level. The heading and footing of a single frame say nothing about the
     /// figure. The lower ankle stays in place.
     void stand_straight() {
         const double before = lowest_ankle();

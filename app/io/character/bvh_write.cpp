@@ -12,8 +12,8 @@ using humanoid::Skeleton;
 
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
-/// Euler angles z, x and y in degrees, intrinsic in that order, which is the most common order. If x is a
-/// quarter turn, y is 0.
+/// Euler angles z, x and y in degrees, intrinsic in that order, the most common one. If x is a quarter turn,
+/// y is 0.
 glm::dvec3 angles_zxy(const glm::dquat& q) {
     const double sine_x = 2.0 * (q.w * q.x + q.y * q.z);
     const double x = std::asin(std::clamp(sine_x, -1.0, 1.0));
@@ -48,14 +48,14 @@ class Writer {
 
   private:
     static std::size_t at(std::int32_t node) { return static_cast<std::size_t>(node); }
-    /// Whether the node came from an end site: it has the reader's name for one, and is not animated.
+    /// True if the node came from an end site: it has the reader's name for one, and is not animated.
     bool is_end_site(std::size_t node) const {
         const std::int32_t parent = skeleton_[node].parent;
         return skeleton_.children(node).empty() && parent >= 0 &&
                skeleton_[node].name == skeleton_[at(parent)].name + " end" && !turns_or_moves(node);
     }
-    /// A BVH has no unit. guess_unit() recognises metres up to a height of about 5.5 m, and millimetres above
-    /// 4.5 m.
+    /// A BVH file has no unit. guess_unit() recognises metres up to a height of about 5.5 m, and millimetres
+    /// above 4.5 m.
     void find_unit() {
         double low = 0.0, high = 0.0;
         for (std::size_t node = 0; node < skeleton_.size(); ++node) {

@@ -36,7 +36,7 @@ class LoadProgress {
     std::atomic<bool> cancelled_{false};
 };
 
-/// For readers; `progress` may be null.
+/// Called by readers; `progress` may be null.
 inline void report(LoadProgress* progress, double part) {
     if (progress) progress->at(part);
 }
@@ -47,7 +47,7 @@ struct NamedBones {
     std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
-/// The up axis of a file. FBX and glTF files state it; for them Y means "as stated".
+/// The up axis of a file. FBX and glTF files state it; for these, Y means "as stated".
 enum class UpAxis : std::uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
 
 inline constexpr EnumNames<UpAxis, 6> up_axes{
@@ -103,16 +103,16 @@ struct Character {
     FileSpace space{};
     std::vector<RootOffset> root_offsets{};  ///< only those that are not 0
     std::vector<std::string> notes{};        ///< sentences for the panel on omissions and changes
-    /// How scale and space were guessed, one sentence each; empty if not guessed or if set by hand.
+    /// How scale and space were guessed, one sentence each; empty if stated, or set by hand.
     struct Guesses {
         std::string unit{}, up{}, positions{};
     } guesses{};
 
-    /// The guesses and the notes.
+    /// The guesses, then the notes.
     std::vector<std::string> sentences() const;
 };
 
-/// Reads the character's file differently: converts its nodes, skin and clips. Values that this sets are no
+/// Reads the character's file differently: converts its nodes, skin and clips. The values set here are no
 /// longer guesses. Throws std::runtime_error if a number becomes too large.
 void read_as(Character& character, double scale, const FileSpace& space);
 
@@ -125,7 +125,7 @@ humanoid::Clip read_as_now(humanoid::Clip clip, double scale, const FileSpace& s
 void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, double scale,
                const glm::dquat& turn = {1.0, 0.0, 0.0, 0.0});
 
-/// The file's own bone map, or else the library's match.
+/// The file's own bone map or, if it has none, the library's match.
 humanoid::BoneMap bone_map(const Character& character);
 
 /// Throws std::runtime_error with the skeleton's message and the name of the node concerned.
@@ -139,8 +139,8 @@ struct RestBounds {
 /// `rest`: the placements of all nodes at rest.
 RestBounds bounds_at_rest(const Character& character, std::span<const humanoid::Placement> rest);
 
-/// A unit of length for files that do not specify one: of the common units, the one that makes a figure of
-/// that height closest to 1.75 m.
+/// A unit of length for files that do not specify one: the common unit that makes a figure of that height
+/// closest to 1.75 m.
 struct LengthUnit {
     const char* name;
     double metres;
@@ -170,11 +170,11 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
 /// name.
 std::string character_bytes(const std::filesystem::path& path, std::uintmax_t most = UINTMAX_MAX);
 
-/// Whether the file name has the extension of a supported file.
+/// True if the file name has the extension of a supported file.
 bool ends_as_character(const std::filesystem::path& path);
 
-/// Moves feet that hang outside the legs below them (tendril/humanoid/attach.hpp), where that changes no
-/// motion, and notes what was done or why not.
+/// Moves feet that hang outside the legs below them (tendril/humanoid/attach.hpp) if that changes no motion,
+/// and notes what was done, or why nothing was.
 void attach_feet(Character& character);
 
 }  // namespace tendril::app

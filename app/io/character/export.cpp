@@ -99,7 +99,7 @@ class Comparison {
     std::vector<Placement> wanted_{}, found_{};
 };
 
-/// Whether the original has the same fault at the same joint, at the same or a neighbouring frame.
+/// True if the original has the same fault at the same joint, at the same or a neighbouring frame.
 bool is_known(const humanoid::Finding& finding, const humanoid::LintReport& original) {
     constexpr std::size_t near = 3;  // frames
     return std::ranges::any_of(original.findings, [&](const humanoid::Finding& each) {
@@ -138,7 +138,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
 }
 
 /// "7 findings in the written clip, 2 of them new: ...". A clip whose feet were put on a ground is judged on
-/// it; a reader of the file does not know the ground.
+/// that ground, which a reader of the file does not know.
 std::string findings_text(const ExportReport& report) {
     constexpr std::size_t named = 2;
     if (report.findings == 0) return "no findings in the written clip";

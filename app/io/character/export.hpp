@@ -21,7 +21,7 @@ struct ExportReport {
     double skating_before = 0.0;  ///< maximum sliding of a standing foot, metres
     double skating_after = 0.0;
     double rate = 60.0;                       ///< frames per second
-    double unit = 1.0;                        ///< metres, of a glTF file that keeps its own unit
+    double unit = 1.0;                        ///< metres per unit of a glTF file that keeps its own unit
     std::size_t findings = 0;                 ///< the lint's findings in the written clip
     bool on_ground = false;                   ///< whether the lint used a slope, stairs, hills or a mesh
     std::vector<std::string> new_findings{};  ///< findings that the original lacks
@@ -48,7 +48,7 @@ struct Export {
 
 inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 
-/// Whether the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
+/// True if the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
 bool ends_as_export(const std::filesystem::path& path);
 
 /// "1 of 14 clips: Walking"; empty if the character has no other clip.

@@ -18,7 +18,7 @@ using glm::vec3;
 using humanoid::Bone;
 using humanoid::Placement;
 
-constexpr float lowered = 0.7f;  // radians; the arms of the bind pose against the T-pose
+constexpr float lowered = 0.7f;  // radians; how far the bind pose's arms are below the T-pose
 
 /// A cross-section: between two joints, or at one of them, and offset from it.
 struct FigureSection {
@@ -217,11 +217,11 @@ class FigureBody {
 
     // The weights.
 
-    /// How far a point is past a joint in direction `way`, 0 to 1, with a transition of `reach` metres.
+    /// How far a point is past a joint in direction `way`: 0 to 1 over a transition of `reach` metres.
     float past(Bone joint, vec3 way, float reach, const vec3& point) const {
         return step_between(-reach * unit_, reach * unit_, glm::dot(point - at(joint), glm::normalize(way)));
     }
-    /// Divides a share among a chain of bones, from joint to joint.
+    /// Divides a share along a chain of bones, from joint to joint.
     struct Joint {
         Bone bone;
         float reach;  ///< metres on a figure of 1.8 m

@@ -59,7 +59,7 @@ void BodyField::add_chain(std::size_t group, std::span<const BodySection> sectio
 }
 
 /// To first order: the value over the length of its gradient. Uses plain floats: it runs a million times,
-/// also in builds that inline nothing.
+/// even in builds without inlining.
 float BodyField::cone_distance(const Cone& cone, const vec3& point) {
     float x = point.x - cone.from.x, y = point.y - cone.from.y, z = point.z - cone.from.z;
     const vec3 &way = cone.way, &flat = cone.flat;
@@ -215,7 +215,7 @@ class BodyNet {
     }
 
     /// A square with two opposite corners inside and two outside would join two surfaces in one edge: flips
-    /// the corner nearest to the surface. Returns whether there were any.
+    /// the corner nearest to the surface. Returns whether there were any such squares.
     bool untangle() {
         bool found = false;
         each_block([&](const ivec3& at) {

@@ -4,7 +4,7 @@
 //
 // The skeleton consists of the skins' joints, VRM bones, animated nodes, and all ancestors of these; other
 // nodes, such as those of meshes, cameras and lights, are omitted. In a file without a skin it is the whole
-// tree of the nodes that are animated or VRM bones.
+// tree of the animated nodes and VRM bones.
 //
 // The character also gets a VRM file's springs (gltf_vrm.hpp).
 //
@@ -23,8 +23,8 @@
 namespace tendril::app {
 
 /// `name` is the file's name, for messages; external files are read from `folder`. Throws std::runtime_error
-/// that begins with the name if the file cannot be read, has no skeleton, has a clip with numbers that are
-/// not finite or that are compressed, lacks buffers, or refers to files outside `folder`.
+/// that begins with the name if the file cannot be read, has no skeleton, has a clip whose numbers are
+/// compressed or not finite, lacks buffers, or refers to files outside `folder`.
 Character parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
                      LoadProgress* progress = nullptr);
 

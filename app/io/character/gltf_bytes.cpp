@@ -52,8 +52,8 @@ class Folder {
         std::error_code unknown;
         folder_ = fs::canonical(folder.empty() ? fs::path(".") : folder, unknown);
     }
-    /// The URI's file; none if there is no such file. Throws if the URI leads out of the folder, whether or
-    /// not there is a file.
+    /// The URI's file; none if it does not exist. Throws if the URI leads out of the folder, whether or not
+    /// the file exists.
     std::optional<fs::path> find(const std::string& uri, const std::string& what) const {
         for (const std::string& name : names_of_uri(uri)) {
             check_inside(name, uri, what);
@@ -109,7 +109,7 @@ bool is_fallback(const json& buffer) {
     });
 }
 
-/// The bytes at a buffer's or image's data URI or file. `is_there` is false if the file is missing.
+/// The bytes at a buffer's or image's data URI or file. `is_there` becomes false if the file is missing.
 Bytes bytes_at(const std::string& uri, const std::string& what, Folder& folder, bool& is_there) {
     is_there = true;
     if (const auto data = data_of(uri)) return bytes_of(*data);
@@ -234,7 +234,7 @@ void put_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
     const auto count = static_cast<std::size_t>(accessor.sparse.count);
     const std::size_t size = size_of(accessor.componentType);
     const std::size_t index_size = size_of(accessor.sparse.indices.componentType);
-    const auto offset = [&](auto bytes) {  // an int, and in newer releases of tinygltf a size_t
+    const auto offset = [&](auto bytes) {  // an int; in newer releases of tinygltf a size_t
         if (!std::in_range<std::size_t>(bytes)) fail(what, "a negative offset");
         return static_cast<std::size_t>(bytes);
     };

@@ -15,7 +15,7 @@
 namespace tendril::app {
 
 // The bytes that a glTF file's buffers and images refer to: the BIN chunk, data URIs, and files beside it.
-// tinygltf sees placeholders instead, since it refuses a whole file for a picture that it cannot read, an
+// tinygltf sees placeholders instead, since it refuses a whole file because of an unreadable picture, an
 // empty BIN chunk, a compressed mesh, or a file that is longer than its buffer.
 
 /// Replaces buffers by placeholders and removes images and the indices of Draco primitives. `file` is JSON
@@ -32,12 +32,12 @@ void put_in_bytes(const nlohmann::json& file, std::string_view binary, const std
 
 /// The bytes of an image's file, in its buffer or its own; empty if there are none.
 std::string_view picture_bytes(const tinygltf::Model& model, const tinygltf::Image& image);
-/// "PNG", "JPEG", "KTX2", "WebP"; empty: none of these.
+/// "PNG", "JPEG", "KTX2", "WebP"; empty for any other.
 std::string_view picture_kind(std::string_view bytes);
 
 // Checks what a glTF file's JSON claims about its bytes. Every buffer, view, accessor, mesh, image and
-// animation is checked, used or not, so that later readers need no checks: nothing is outside its buffer, and
-// no file demands more work than its size justifies.
+// animation is checked, used or not, so later readers need no checks: nothing is outside its buffer, and no
+// file demands more work than its size justifies.
 
 /// Limit for a glTF file, and for each external file, in bytes.
 inline constexpr std::uint64_t max_gltf_bytes = std::uint64_t{1} << 30;
@@ -61,8 +61,8 @@ std::string_view gltf_json(std::string_view bytes);
 /// there is no skeleton.
 std::vector<std::size_t> gltf_nodes(const tinygltf::Model& model);
 
-// Reads numbers from a glTF file's buffers, checking every index and size: tinygltf checks the JSON's form,
-// but not the consistency of its numbers.
+// Reads numbers from a glTF file's buffers, checking every index and size: tinygltf checks the form of the
+// JSON, but not the consistency of its numbers.
 
 /// Rows of `components` numbers. Normalised integers are converted to 0 to 1, or -1 to 1 if signed; sparse
 /// values are applied. `what` is for messages: "animations[2].samplers[0].input". Throws std::runtime_error
@@ -70,8 +70,8 @@ std::vector<std::size_t> gltf_nodes(const tinygltf::Model& model);
 std::vector<double> accessor_rows(const tinygltf::Model& model, int accessor, int components,
                                   const std::string& what);
 
-/// The extension that compresses an accessor's bytes, if there is no plain copy of them; else null. Rows of
-/// such an accessor cannot be read.
+/// The extension that compresses an accessor's bytes if there is no plain copy of them; else null. The rows
+/// of such an accessor cannot be read.
 const char* compression(const tinygltf::Model& model, int accessor);
 
 /// The number of rows. Throws as above.

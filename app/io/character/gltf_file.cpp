@@ -48,7 +48,7 @@ void GltfFile::take_buffers(const tinygltf::Model& model) {
     std::vector<Place> places;
     for (std::size_t i = 0; i < model.buffers.size(); ++i) {
         const std::vector<unsigned char>& bytes = model.buffers[i].data;
-        if (bytes.empty()) {  // there is only a compressed copy of it
+        if (bytes.empty()) {  // only a compressed copy exists
             fallbacks_.push_back(json["buffers"][i]);
             places.push_back({fallbacks_.size(), 0});
             continue;
@@ -190,7 +190,7 @@ void GltfFile::normalise_weights_of(const Json& primitive) {
             std::memcpy(buffer_.data() + at, four, sizeof four);
         }
     }
-    // The range has changed; glTF requires min and max for positions only.
+    // The range has changed; glTF requires min and max only for positions.
     if (touched)
         for (std::size_t set = 0; set < sets.size(); ++set)
             accessor(set).erase("min"), accessor(set).erase("max");

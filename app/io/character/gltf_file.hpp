@@ -34,8 +34,8 @@ class GltfFile {
     /// Four joints for each vertex.
     std::size_t add_joints(const std::vector<std::uint16_t>& joints);
 
-    /// Makes the skin weights of each vertex sum to 1, which the format requires but not every file observes.
-    /// Changes only floats; weights that already do keep their bits.
+    /// Makes the skin weights of each vertex sum to 1, as the format requires, since not every file observes
+    /// it. Changes only floats; weights that already sum to 1 keep their bits.
     void normalise_weights();
 
     /// The whole file. In text form the buffer is embedded as base64. Throws std::runtime_error above 4 GB.

@@ -38,9 +38,9 @@ double length_to_unit(const Value&) {
     return 1.0;
 }
 
-/// The key at 0 s of a curve between a key before 0 s and the next, after it. `n` values per key, or 3 n for
-/// a cubic: in-tangents, values, out-tangents. The rest of a cubic stays the same: both tangents are its
-/// derivative there.
+/// The key at 0 s on a curve between a key before 0 s and the next one, after it. `n` values per key, or 3 n
+/// for a cubic: in-tangents, values, out-tangents. The rest of a cubic does not change: both new tangents are
+/// its derivative at 0 s.
 template <class Value>
 std::vector<Value> key_at_zero(const std::vector<double>& times, const std::vector<Value>& values,
                                std::size_t n, humanoid::Interpolation interpolation) {
@@ -72,9 +72,9 @@ std::vector<Value> key_at_zero(const std::vector<double>& times, const std::vect
 
 }  // namespace detail
 
-/// `values` has the same number of values for each key. Of several keys at one time the last one stays. Keys
-/// before 0 s are replaced by one at 0 s, with the curve's value there. `is_zero` tells which keys, by their
-/// first value's index, have no rotation.
+/// `values` has the same number of values for each key. Among keys at one time, the last one stays. Keys
+/// before 0 s are replaced by one at 0 s, with the curve's value there. `is_zero` tells which keys, by the
+/// index of their first value, have no rotation.
 template <class Value, class IsZero>
 void drop_bad_keys(std::vector<double>& times, std::vector<Value>& values,
                    humanoid::Interpolation interpolation, const IsZero& is_zero, DroppedKeys& dropped) {

@@ -103,8 +103,8 @@ tinygltf::Model read_json(std::string_view text) {
 }
 
 /// KHR_animation_pointer (Khronos): a pointer to a node's property becomes a channel of that node. tinygltf
-/// drops channels without a node, so all others get node -1, which allows a note about them. Call after
-/// check_gltf().
+/// drops channels without a node, so all other pointers get node -1, which allows a note about them. Call
+/// after check_gltf().
 void resolve_pointers(json& file) {
     const json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
     if (!file.contains("animations") || !file.contains("nodes")) return;
@@ -146,7 +146,7 @@ class Item {
         const auto found = value_->find(name);
         if (found == value_->end()) return std::nullopt;
         if (found->is_number_unsigned()) return found->get<Size>();
-        constexpr double exact = 9e15;  // larger doubles skip whole numbers
+        constexpr double exact = 9e15;  // larger doubles cannot hold every whole number
         if (found->is_number_float())
             if (const auto real = found->get<double>(); real >= 0.0 && real < exact)
                 if (const auto whole = static_cast<Size>(real); static_cast<double>(whole) == real)
@@ -353,7 +353,7 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     const Chunks chunks = is_binary ? chunks_of(bytes) : Chunks{bytes, {}};
     check_depth(chunks.json);
     const json file = json::parse(chunks.json.begin(), chunks.json.end(), nullptr, false);
-    if (!file.is_object()) return read_json(chunks.json);  // tinygltf says where it is wrong
+    if (!file.is_object()) return read_json(chunks.json);  // tinygltf reports where it is wrong
     check_gltf(file);
     json without = file;
     take_out_bytes(without);

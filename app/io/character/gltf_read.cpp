@@ -20,13 +20,13 @@ using humanoid::Clip;
 using humanoid::Interpolation;
 using humanoid::Node;
 
-/// Sum over all clips: clips can share keys, so even a small file can claim any number.
+/// Limit for all clips together: clips can share keys, so even a small file can claim any number.
 constexpr std::size_t max_clip_keys = 20'000'000;
 
 /// Replaces a scale of 0, which has no inverse: 2 m below it become 2 µm.
 constexpr double tiny_scale = 1e-6;
 
-/// Nodes that were changed to be read.
+/// Nodes changed so that they can be read.
 struct MendedNodes {
     std::size_t count = 0;
     std::string first{};
@@ -299,7 +299,7 @@ class GltfReader {
         return rig::normalised(value);
     }
 
-    /// Counts the pointers that animate no node (gltf_parse.cpp) and are left out.
+    /// Counts the omitted pointers, which animate no node (gltf_parse.cpp).
     void note_pointers(std::vector<std::string>& notes) const {
         std::size_t count = 0;
         std::string first;
@@ -362,7 +362,7 @@ class GltfReader {
     LoadProgress* progress_;
     std::vector<std::int32_t> parents_;
     std::vector<std::int32_t> place_{};  // index in the skeleton of each of the file's nodes; -1: omitted
-    std::vector<std::size_t> chosen_{};  // the inverse
+    std::vector<std::size_t> chosen_{};  // the inverse of place_
     std::optional<VrmBones> vrm_{};
     std::vector<VrmSpring> springs_{};
     std::size_t keys_ = 0;

@@ -34,10 +34,10 @@ std::vector<glm::vec3> vectors(const Values& rows) {
     return result;
 }
 
-/// Surfaces whose picture cannot be read, as shown.
+/// Shown in place of a picture that cannot be read.
 constexpr float lost_gray = 0.55f;
 
-/// KHR_texture_transform (Khronos): the texture coordinates that a texture uses, and their transform.
+/// KHR_texture_transform (Khronos): the texture coordinates of a texture, and their transform.
 struct TextureTransform {
     int set = 0;  ///< TEXCOORD_0
     glm::dvec2 offset{0.0}, scale{1.0};
@@ -88,7 +88,7 @@ class GltfSkinReader {
     }
 
   private:
-    /// The joints that move a mesh: its skin's, from `first` in the builder's list, or a single one.
+    /// The joints that move a mesh: those of its skin, from `first` in the builder's list, or a single one.
     struct Binding {
         std::size_t first = 0, count = 1;
     };
@@ -323,7 +323,7 @@ class GltfSkinReader {
         if (known->second < 0) lost_.push_back(lost_picture(image, source, bytes));
         return known->second;
     }
-    /// The texture's image: an extension's if it has none of its own, as with KTX2 and WebP.
+    /// The texture's image or, if it has none, an extension's, as with KTX2 and WebP.
     static int source_of(const tinygltf::Texture& texture) {
         if (texture.source >= 0) return texture.source;
         for (const auto& [name, value] : texture.extensions)

@@ -19,7 +19,7 @@ struct GltfNodes {
 };
 
 /// `local` has the local transform of each of the file's nodes. Omits meshes with no ancestor in the
-/// skeleton, points and lines, and compressed meshes; a surface whose picture cannot be read is gray. Counts
+/// skeleton, points and lines, and compressed meshes; a surface whose picture cannot be read is grey. Counts
 /// dropped morph keys. Appends sentences about other omissions to `notes`. Throws std::runtime_error.
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes,
                const std::vector<humanoid::Placement>& local, DroppedKeys& dropped,

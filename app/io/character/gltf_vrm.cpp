@@ -44,7 +44,7 @@ class VrmReader {
     std::size_t count_;
 };
 
-constexpr std::size_t max_vrm_springs = 4096, max_colliders = 256;  // colliders: of one spring
+constexpr std::size_t max_vrm_springs = 4096, max_colliders = 256;  // colliders per spring
 
 const Value* part_of(const Value* object, const char* name) {
     return object && object->IsObject() && object->Has(name) ? &object->Get(name) : nullptr;
@@ -140,7 +140,7 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
 }
 
 /// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is the fallback for
-/// readers without the extension; this reader uses it for planes and colliders that hold springs inside.
+/// readers without the extension; this reader uses it for planes and for colliders that hold springs inside.
 const Value* extended(const Value* collider) {
     return part_of(part_of(collider, "extensions"), "VRMC_springBone_extended_collider");
 }
@@ -183,9 +183,9 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     }
 }
 
-/// The shape of a chain at rest, in metres.
+/// The shape of a chain at rest; metres.
 struct ChainShape {
-    double first = 0.0, whole = 0.0;  // lengths of its first bone, and from its root to its farthest tip
+    double first = 0.0, whole = 0.0;  // length of its first bone; length from its root to its farthest tip
     glm::dvec3 direction{0.0, -1.0, 0.0};
 };
 
@@ -277,15 +277,15 @@ void note_unfollowed(const tinygltf::Model& model, std::vector<std::string>& not
                         "): those nodes keep their own rotation.");
 }
 
-/// VRM moves a bone's tip by Verlet's method, 60 times a second: with the tip y beside its rest, drag d,
-/// length L, stiffness k and gravity g along the bone,
+/// VRM moves a bone's tip by Verlet's method, 60 times a second: with the tip y from its rest, drag d, length
+/// L, stiffness k and gravity g along the bone,
 ///
 ///     y' = (1 - q) (y + (1 - d) (y - y_before)),   q = s / (L + s),   s = (k + g) / 60
 ///
 /// where q comes from adding s along the bone and then restoring its length. So y is a sum of powers of the
-/// roots z of z^2 - (1 - q) (2 - d) z + (1 - q) (1 - d) = 0, and a damped spring has the same decay and
-/// frequency if its two rates, w (zeta +- sqrt(zeta^2 - 1)), are -60 ln z: w^2 is their product, and zeta
-/// their mean over w.
+/// roots z of z^2 - (1 - q) (2 - d) z + (1 - q) (1 - d) = 0. A damped spring has the same decay and frequency
+/// if its two rates, w (zeta +- sqrt(zeta^2 - 1)), are -60 ln z: w^2 is their product, and zeta their mean
+/// over w.
 SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3& direction) {
     constexpr double steps = 60.0, smallest = 1e-4, two_pi = 6.283185307179586;
     const double pull = std::max(0.0, spring.stiffness + glm::dot(spring.gravity, direction)) / steps;
@@ -336,8 +336,8 @@ std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, co
             continue;
         }
         const SpringRate rate = spring_rate(each, shape.first, shape.direction);
-        // SpringChain's strength is the tip's; its first bone, at a fraction s of the chain, is stiffer by
-        // 1 / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as VRM's does.
+        // SpringChain's strength is the tip's; its first bone, a fraction s of the chain long, is stiffer by
+        // 1 / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as in VRM.
         const double s = std::clamp(shape.first / shape.whole, 0.01, 1.0);
         result.push_back(
             {node, std::clamp(rate.strength * s * std::sqrt((6.0 - 4.0 * s + s * s) / 3.0), 0.01, 100.0),

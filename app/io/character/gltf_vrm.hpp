@@ -20,7 +20,7 @@ struct VrmBones {
 };
 
 /// None if the file has none of the extensions. Omits bones that a BoneMap lacks (fingers, eyes, jaw). Throws
-/// std::runtime_error if a bone's node does not exist or is already another bone's.
+/// std::runtime_error if a bone's node does not exist, or already has another bone.
 std::optional<VrmBones> vrm_bones(const tinygltf::Model& model);
 
 // Spring bones of a VRM file: "secondaryAnimation" of VRM 0.x, and VRMC_springBone of VRM 1.0, both by the
@@ -45,7 +45,7 @@ struct SpringRate {
 SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3& direction);
 
 /// The springs on a skeleton. `place`: the skeleton's index for each of the file's nodes; -1: not in it.
-/// Springs on the body and on one another are left out. Appends sentences about omissions to `notes`.
+/// Omits springs on the body, and springs on other springs. Appends sentences about omissions to `notes`.
 std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, const Character& character,
                                        const std::vector<std::int32_t>& place,
                                        std::vector<std::string>& notes);

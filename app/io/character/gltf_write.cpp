@@ -66,7 +66,7 @@ Json array_of(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
 }
 
-/// A part's colour in linear light, as glTF has it.
+/// A part's colour in linear light, as glTF stores it.
 Json linear_colour(const glm::vec4& shown) {
     Json colour = Json::array();
     for (int i = 0; i < 3; ++i)
@@ -93,7 +93,7 @@ void set_transform(Json& node, const rig::Transform& local) {
     node["scale"] = array_of(local.scale);
 }
 
-/// The meshes of what is worn; their joints are at rest in the skeleton, which has `unit` metres per unit of
+/// The meshes of worn things; their joints are at rest in the skeleton, which has `unit` metres per unit of
 /// the file. `nodes`: each node's index in the file.
 void add_worn(const Worn& worn, const humanoid::Skeleton& skeleton, const std::vector<std::size_t>& nodes,
               double unit, GltfFile& file) {
@@ -147,7 +147,7 @@ void add_worn(const Worn& worn, const humanoid::Skeleton& skeleton, const std::v
             file.json["nodes"][nodes[joints.front()]]["mesh"] = made;
             continue;
         }
-        Json& skins = file.json["skins"];  // may be new, and a new member moves the others
+        Json& skins = file.json["skins"];  // may be new; adding a member moves the others
         Json& all = file.json["nodes"];
         if (file.json.contains("scenes"))
             file.json["scenes"][file.json.value("scene", std::size_t{0})]["nodes"].push_back(all.size());
@@ -188,7 +188,7 @@ class Animation {
         std::vector<float> times, numbers;
         for (std::size_t i = 0; i < track.times.size(); ++i) {
             auto time = static_cast<float>(track.times[i]);
-            // Round a step's time down: rounded up, a reader at the exact time would miss it.
+            // Round a step's time down: rounded up, it would come too late for a reader at the exact time.
             if (track.interpolation == Interpolation::Step && static_cast<double>(time) > track.times[i])
                 time = std::nextafter(time, 0.0f);
             if (!times.empty() && !(time > times.back())) continue;  // identical when rounded to float
@@ -237,7 +237,7 @@ void add_rest(const Character& character, std::size_t place, std::size_t node, A
 }
 
 /// Nodes are in the skeleton because they are joints or animated. A node that only other animations moved
-/// gets a key of its rest pose, so that it stays in the skeleton.
+/// gets a key at its rest pose, so that it stays in the skeleton.
 void keep_animated(const Json& animations, const Character& character, const std::vector<std::size_t>& nodes,
                    std::set<std::size_t> animated, Animation& into) {
     for (const Json& animation : animations) {
@@ -275,8 +275,7 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
         all.push_back({{"name", each.name}});
         set_transform(all.back(), rest);
     }
-    // A reader takes whole trees of a file without skins, and of one with a skin only joints and what is
-    // animated.
+    // In a file without skins, readers take whole trees; in one with a skin, only joints and animated nodes.
     const std::size_t keyed = file.json.contains("skins") ? nodes.size() - worn.nodes.size() : 0;
     add_worn(worn, character.skeleton, nodes, character.scale, file);
     const Json animations = file.json.value("animations", Json::array());
@@ -320,7 +319,7 @@ void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
     if (!skins.empty()) file.json["skins"] = std::move(skins);
 }
 
-/// Whether the file can hold the whole mesh: one tree, a joint for each node, plain colours.
+/// True if the file can hold the whole mesh: one tree, a joint for each node, plain colours.
 bool is_written(const Character& character) {
     const SkinnedMesh* const mesh = character.skin.mesh.get();
     if (mesh == nullptr || !mesh->pictures.empty() || !mesh->morphs.empty() || !mesh->tints.empty())

@@ -2,9 +2,9 @@
 //
 // A character from a glTF file keeps that file's contents: nodes, skins, materials, meshes, pictures and
 // extensions. The clip replaces its animations, but keeps their channels that move no node (morph weights).
-// Skin weights are normalised to sum to 1, as the format requires. For other characters the nodes and the
-// clip are written, in metres, Y up, with a skin so that programs recognise a skeleton. A mesh without
-// pictures and morphs, such as the built-in figure's, is written with them.
+// Skin weights are normalised to sum to 1, as the format requires. Other characters are written as their
+// nodes and the clip, in metres, Y up, with a skin so that programs recognise a skeleton. A mesh without
+// pictures and morphs, such as the built-in figure's, is written too.
 //
 // The keys are the clip's, plus one at each frame in linear tracks that do not already have that rate;
 // rotations are on one hemisphere. This preserves the motion between keys: a part of an arc is an arc, and
@@ -18,7 +18,7 @@
 
 namespace tendril::app {
 
-/// The character's source file; no bytes: none, or not glTF.
+/// The character's source file; no bytes if there is none, or it is not glTF.
 struct GltfOrigin {
     std::string bytes{};
     std::filesystem::path folder{};
@@ -36,8 +36,8 @@ struct WornMesh {
     std::vector<std::uint32_t> indices{};
 };
 
-/// Extra nodes for what a character wears and holds, parents first, and their meshes. In a clip they follow the
-/// character's own nodes.
+/// Extra nodes for things that a character wears and holds, parents first, and their meshes. In a clip they
+/// follow the character's own nodes.
 struct Worn {
     std::vector<humanoid::Node> nodes{};
     std::vector<WornMesh> meshes{};

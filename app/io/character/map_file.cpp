@@ -117,7 +117,7 @@ SavedMap read_map(const std::filesystem::path& path) {
 }
 
 std::filesystem::path kept_map(const std::filesystem::path& folder, const Skeleton& skeleton) {
-    // FNV-1a, 64 bits: it only determines the file's name; find_kept_map() compares the node names in it.
+    // FNV-1a, 64 bits. It only names the file; find_kept_map() compares the node names in it.
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto take = [&](unsigned char byte) { hash = (hash ^ byte) * 0x100000001b3u; };
     for (const humanoid::Node& node : skeleton.nodes()) {

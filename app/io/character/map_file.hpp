@@ -39,7 +39,7 @@ std::string map_text(const SavedMap& map);
 /// std::runtime_error, also if two bones have the same node.
 SavedMap parse_map(std::string_view text, const std::string& name);
 SavedMap read_map(const std::filesystem::path& path);
-/// Whether a file that begins with this text may be a saved map.
+/// True if a file that begins with this text may be a saved map.
 bool begins_map(std::string_view text);
 
 /// Path in a folder of the kept map for a skeleton with these names, whether or not it exists.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 
-/// Guesses the unit of a file that states none: the one that gives a person a plausible height.
+/// Guesses the unit of a file that states none: the unit that gives a person a plausible height.
 void mend_unit(Character& character) {
     if (character.states_unit) return;
     std::vector<humanoid::Placement> rest(character.skeleton.size());
@@ -61,7 +61,7 @@ std::vector<double> times_to_compare(const humanoid::Clip& clip, std::size_t nod
     return times;
 }
 
-/// Whether the clip's motion stays the same; a scale of 0, or a shear, may occur only in a clip.
+/// True if the clip's motion stays the same. A scale of 0, or a shear, may occur only in a clip.
 bool keeps_motion(const Skeleton& before, const Skeleton& after, const humanoid::Clip& clip,
                   std::size_t node) {
     std::vector<rig::Transform> pose(before.size());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double hardly_sure = 0.8;  // bones below this confidence are reported as guesses
 
-/// "Chest, Toes": left and right as one, if both are in the list.
+/// "Chest, Toes": left and right as one name if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
     constexpr std::string_view left = "Left", right = "Right";
     std::vector<std::string> all;

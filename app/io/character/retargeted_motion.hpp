@@ -12,7 +12,7 @@ namespace tendril::app {
 
 struct RetargetedMotion {
     humanoid::Clip clip{};  ///< for the character, with its name from its file
-    /// First a line on bones that were not retargeted; then on scaling and on guesses.
+    /// First a line on bones that were not retargeted, then lines on scaling and guesses.
     std::vector<std::string> notes{};
 };
 

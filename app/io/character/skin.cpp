@@ -123,7 +123,7 @@ AffineRows rows_of(const Placement& m) {
     return rows;
 }
 
-/// Whether any vertex follows one of these nodes.
+/// True if any vertex follows one of these nodes.
 bool is_worn(const Skin& skin, const std::vector<std::size_t>& nodes) {
     return std::ranges::any_of(skin.mesh->weights, [&](const JointWeights& by) {
         for (std::size_t i = 0; i < 4; ++i)

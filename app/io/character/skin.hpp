@@ -23,7 +23,7 @@
 
 namespace tendril::app {
 
-/// A joint of the skin: `from_bind`, then the node's placement, maps a vertex from the bind pose to its
+/// A joint of the skin. `from_bind`, then the node's placement, maps a vertex from the bind pose to its
 /// position in metres.
 struct SkinJoint {
     std::size_t node = 0;
@@ -40,14 +40,14 @@ struct MorphTrack {
 
 struct Skin {
     std::shared_ptr<const SkinnedMesh> mesh{};           ///< null: the file has none
-    std::vector<SkinJoint> joints{};                     ///< the mesh's, in its order
+    std::vector<SkinJoint> joints{};                     ///< joints of the mesh, in its order
     std::vector<std::vector<MorphTrack>> morph_clips{};  ///< one list per clip, in order, or empty
 };
 
 /// For SkinDraw::matrices. `placements`: of all nodes, from humanoid::place().
 std::vector<AffineRows> skin_matrices(const Skin& skin, std::span<const humanoid::Placement> placements);
-/// Every vertex at its skinned position with its strongest joint's node, for humanoid::fitted_capsules();
-/// `rest`: the placements at rest.
+/// Every vertex at its skinned position, with the node of its strongest joint, for
+/// humanoid::fitted_capsules(). `rest`: the placements at rest.
 std::vector<humanoid::SkinPoint> skin_points(const Skin& skin, std::span<const humanoid::Placement> rest);
 /// For SkinDraw::morph_weights; a clip without tracks keeps the morphs' own weights.
 std::vector<float> morph_weights(const Skin& skin, std::size_t clip, double time);
@@ -84,10 +84,10 @@ class SkinBuilder {
     std::size_t add_morph(const std::string& what, std::string name, double weight,
                           std::vector<glm::vec3> positions, std::vector<glm::vec3> normals);
     /// Adds a picture from the bytes of a PNG or JPEG file and returns its index, or the index of an earlier
-    /// one with the same bytes; -1 if it is neither, is broken or exceeds the limit. It is halved until no
-    /// side is over 2048 and it takes at most an eighth of the space left for pictures.
+    /// picture with the same bytes; -1 if it is neither, is broken or exceeds the limit. It is halved until
+    /// no side is over 2048 and it takes at most an eighth of the space left for pictures.
     std::int32_t add_picture(std::string_view bytes);
-    /// Whether the picture limit was reached: no more are decoded, however small they would become.
+    /// True if the picture limit was reached: no more are decoded, even if they would shrink enough.
     bool pictures_are_full() const { return full_; }
 
     std::size_t corners() const { return mesh_.positions.size(); }
@@ -106,15 +106,15 @@ class SkinBuilder {
 /// Converts linear light to sRGB.
 glm::vec3 shown_colour(const glm::vec3& linear);
 
-/// Distributes the twist of arms evenly along their bones; with plain linear blending they collapse at wrist
-/// and shoulder (tendril/humanoid/twist.hpp has the method and its sources).
+/// Distributes the twist of arms evenly along their bones; plain linear blending makes wrists and shoulders
+/// collapse (tendril/humanoid/twist.hpp has the method and its sources).
 ///
 ///     const TwistSpread spread(character.skin, character.skeleton, map);  // once
 ///     draw.mesh = character.skin.mesh;
 ///     draw.weights = spread.weights();
 ///     draw.matrices = spread.matrices(character.skin, placements);
 ///
-/// A vertex keeps its joints and weights, but instead of a joint on an arm's bone it follows a copy of the
+/// A vertex keeps its joints and weights, but instead of a joint on an arm's bone it follows a copy of that
 /// joint, rotated about the bone by the twist at the vertex's position along it. Positions are rounded to a
 /// hundredth of the bone, and only those in use get a copy. So no vertex is blended between distant
 /// positions, and without twist every vertex stays the same, bit for bit.

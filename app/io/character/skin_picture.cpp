@@ -18,15 +18,15 @@ namespace tendril::app {
 namespace {
 
 constexpr int longest_side = 2048;
-constexpr std::size_t max_pixels = std::size_t{1} << 26;  // one picture's, before it is halved: 256 MB
-/// A byte of a PNG makes at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; JPEG makes less.
+constexpr std::size_t max_pixels = std::size_t{1} << 26;  // limit for one picture before it is halved: 256 MB
+/// A byte of a PNG expands to at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; JPEG to less.
 constexpr std::size_t max_pixels_of_byte = 8 * 1032;
 
 std::size_t pixels(const glm::ivec2& size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-/// Whether a PNG has the bytes that its chunks claim: stb allocates them before it checks. Other files pass.
+/// True if a PNG has the bytes that its chunks claim: stb allocates them before it checks. Other files pass.
 bool has_its_chunks(std::string_view bytes) {
     if (!bytes.starts_with("\x89PNG")) return true;
     std::size_t at = 8;

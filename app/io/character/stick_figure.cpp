@@ -147,8 +147,8 @@ class Recorder {
 
 constexpr double walk_period = 1.1, walk_speed = 1.0;  // s, m/s
 
-/// A foot's pose at `phase`, a fraction of the walk's period, after its heel strike, when the hips were at
-/// z = 0 and the ankle `ahead` of them.
+/// A foot's pose at `phase`, the fraction of the walk's period since its heel strike, when the hips were at z
+/// = 0 and the ankle `ahead` of them.
 struct FootPose {
     dvec3 ankle;
     double pitch;  // degrees, toes up

@@ -16,7 +16,7 @@ namespace tendril::app {
 
 /// Nodes have the names of bone_map.hpp and no rotation at rest. The clips are "walk", which moves 1.1 m
 /// towards +Z in 1.1 s and loops, and "punch", a hook of the right hand that begins and ends in the guard
-/// position. Made at the first call, which takes a tenth of a second.
+/// position. Built by the first call, in a tenth of a second.
 const Character& stick_figure();
 
 /// Where the sole touches the ground at rest, relative to the ankle; metres.
@@ -28,8 +28,8 @@ inline constexpr glm::dvec3 stick_heel{0.0, -0.09, -0.05}, stick_toe{0.0, -0.09,
 // surface becomes triangles by surface nets (S. Gibson, "Constrained elastic surface nets", MICCAI 1998). It
 // is bound with the arms half lowered, so that shoulders keep their shape in a T-pose and beside the body.
 
-/// A closed surface that follows the mapped bones, for a figure that stands in T-pose facing +Z, Y up. No
-/// mesh unless all bones are mapped and have a length.
+/// A closed surface that follows the mapped bones, for a figure in T-pose facing +Z, Y up. No mesh unless all
+/// bones are mapped and have a length.
 Skin figure_body(const humanoid::Skeleton& skeleton, const humanoid::BoneMap& map);
 
 // A body as a distance field: chains of rounded cones, blended where they meet, and its surface as

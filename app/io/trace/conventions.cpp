@@ -19,7 +19,7 @@ struct EngineSpace {
     TraceUp up;
     TraceHand handed;
     TraceUnit unit;
-    bool has_unit = true;  ///< else any, and its size tells
+    bool has_unit = true;  ///< otherwise any unit: guess it from the chain's size
 };
 constexpr std::array<EngineSpace, 9> engines{
     {{"", "", TraceUp::Y, TraceHand::Right, TraceUnit::Metres},
@@ -41,7 +41,7 @@ bool is_finite(const RawFrame& frame) {
            std::ranges::all_of(frame.joints, [](const glm::dvec3& each) { return is_finite(each); });
 }
 
-/// An arm, a leg or a tail is between a hand and a few metres long.
+/// A chain (an arm, a leg, a tail) is between a hand and a few metres long.
 Known<TraceUnit> unit_by_size(double reach) {
     const bool sure = (reach >= 0.1 && reach <= 4.0) || (reach >= 15.0 && reach <= 300.0) ||
                       (reach >= 400.0 && reach <= 4000.0);
@@ -53,7 +53,7 @@ Known<TraceUnit> unit_by_size(double reach) {
     return {unit, sure, reason};
 }
 
-/// A chain mostly hangs or stands above the origin, so one coordinate is far from 0 and positive.
+/// Most chains hang or stand above the origin, so one coordinate is far from 0 and positive.
 Known<TraceUp> up_by_height(std::span<const RawFrame> frames) {
     glm::dvec3 mean(0.0);
     double count = 0.0;
@@ -72,8 +72,7 @@ Known<TraceUp> up_by_height(std::span<const RawFrame> frames) {
     return {TraceUp::Y, false, "nothing shows it"};
 }
 
-/// How much a bone's direction, seen from its own rotation, wanders over the frames: little if the numbers
-/// are read in the right order.
+/// How much a bone's direction varies in its own frame: little if the numbers are read in the right order.
 double wander(std::span<const RawFrame> frames, QuaternionOrder order) {
     double wandered = 0.0;
     std::vector<glm::dvec3> first;
@@ -103,7 +102,7 @@ Known<QuaternionOrder> order_by_bones(std::span<const RawFrame> frames) {
             sure ? "the bones keep their own axis so" : "the rotations do not show it"};
 }
 
-/// What was chosen, else what the header says, else nothing.
+/// The user's choice; else the header's value; else none.
 template <class Names, class Value>
 bool take_given(const Names& names, const std::string& choice, const std::string& header,
                 Known<Value>& known) {
@@ -198,7 +197,7 @@ glm::quat Conventions::rotation(const glm::dvec4& r) const {
     const bool first = rotations.value == QuaternionOrder::Wxyz;
     glm::dvec3 axis = first ? glm::dvec3(r.y, r.z, r.w) : glm::dvec3(r.x, r.y, r.z);
     axis = turned(axis);
-    if (handed.value == TraceHand::Left) axis = -axis;  // a mirror turns the other way round
+    if (handed.value == TraceHand::Left) axis = -axis;  // mirroring reverses the angle
     const glm::dquat q(first ? r.x : r.w, axis);
     return glm::quat(q / glm::length(q));
 }
@@ -206,7 +205,7 @@ glm::quat Conventions::rotation(const glm::dvec4& r) const {
 std::string Conventions::text() const {
     std::string result, reason;
     const auto add = [&](const char* title, bool sure, const std::string& why) {
-        // One reason that several share is said once, after them.
+        // Consecutive conventions with the same reason share it, after the last one.
         if (!reason.empty() && reason != why) result += " (" + reason + ")";
         if (!result.empty()) result += ", ";
         result += title;

@@ -26,11 +26,11 @@ inline constexpr EnumNames<TraceUnit, 3> trace_units{
 inline constexpr EnumNames<QuaternionOrder, 2> quaternion_orders{
     "order of a quaternion", {{"xyzw", "x, y, z, w"}, {"wxyz", "w, x, y, z"}}};
 
-/// A convention, and how it is known.
+/// A convention, and how sure it is.
 template <class Value>
 struct Known {
     Value value{};
-    bool sure = false;     ///< given, or the data leave no doubt
+    bool sure = false;     ///< given, or unambiguous in the data
     std::string reason{};  ///< for display: "given", "as Unreal has it"
 };
 
@@ -40,29 +40,29 @@ struct Conventions {
     Known<TraceUnit> unit;
     Known<QuaternionOrder> rotations;
     bool has_rotations = false;
-    std::string target{};  ///< for display: which joints reach for the target, unless they are the last
+    std::string target{};  ///< for display: which joints reach for the target, if not the last ones
 
     glm::dvec3 turned(const glm::dvec3& p) const;  ///< right-handed, Y up, in the file's unit
-    /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
+    /// Metres, right-handed, Y up. NaN stays NaN; values beyond a float become infinite.
     glm::vec3 point(const glm::dvec3& p) const;
-    /// The inverse: as the file would have it.
+    /// The inverse: in the file's space and unit.
     glm::dvec3 written(glm::vec3 p) const;
-    std::string place(glm::vec3 p) const;     ///< as the file would have it: "(30.0, -50.0, 140.0) cm"
+    std::string place(glm::vec3 p) const;     ///< as the file writes it: "(30.0, -50.0, 140.0) cm"
     std::string length(double metres) const;  ///< likewise: "4.2 cm"
-    /// A quaternion as it is written. NaN stays NaN.
+    /// A quaternion in the file's order. NaN stays NaN.
     glm::quat rotation(const glm::dvec4& r) const;
-    double metres() const;  ///< that one unit is
-    /// "Z up, left-handed, centimetres (as Unreal has it)", with "not sure" where that is so.
+    double metres() const;  ///< metres per unit
+    /// "Z up, left-handed, centimetres (as Unreal has it)", with "not sure" where a convention is.
     std::string text() const;
 };
 
-/// What somebody chose. Overrides the file.
+/// The user's choice. Overrides the file.
 struct ConventionChoice {
     std::string up, handed, unit, rotations;  ///< names, as in the tables above; empty: as the file says
     std::optional<std::size_t> target_joint{};
 };
 
-/// Sum of the bones' lengths in the first frame that is finite; 0 if none is.
+/// Total length of the bones in the first finite frame; 0 if there is none.
 double first_reach(std::span<const RawFrame> frames);
 
 /// From the header, or guessed from the first frames. Throws std::runtime_error for an unknown name.

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-/// JSON has no NaN, but what engines write has: each becomes null outside of strings.
+/// JSON has no NaN, but engines write it: replaces each outside strings by null.
 std::string without_nan(std::string_view text) {
     std::string result;
     result.reserve(text.size());
@@ -29,7 +29,7 @@ std::string without_nan(std::string_view text) {
         std::string_view rest = text.substr(at);
         const auto number = word ? take_number(rest) : std::nullopt;
         if (number) {
-            // 1e999 is refused by the parser; null is as good, for nothing tells NaN from infinity here.
+            // The parser refuses 1e999; write null, since NaN and infinity are the same here.
             result += "null";
             at = text.size() - rest.size();
         } else {
@@ -50,7 +50,7 @@ Json parse_object(std::string_view text, std::size_t line) {
     }
 }
 
-/// null and text such as "NaN" are not a number, which is a value here.
+/// null and text such as "NaN" are read as NaN, a valid value here.
 double loose_number(const JsonPlace& place) {
     const Json& json = place.json();
     if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();
@@ -79,7 +79,7 @@ glm::dvec4 loose_rotation(const JsonPlace& place) {
             loose_number(place.element(3))};
 }
 
-/// By joint: null, the largest angle, [smallest, largest], or an object that may name its joint.
+/// Per joint: null, the largest angle, [smallest, largest], or an object that may name its joint.
 std::vector<ik::BendLimit> read_limits(const JsonPlace& place) {
     std::vector<ik::BendLimit> limits;
     std::size_t index = 0;
@@ -186,7 +186,7 @@ class JsonTrace final : public RawTrace {
         }
     }
 
-    std::string rest_;  ///< the line that is being read
+    std::string rest_;  ///< the rest of the current line
     std::size_t at_ = 0, line_ = 0;
     bool begun_ = false;
 };

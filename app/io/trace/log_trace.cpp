@@ -1,16 +1,16 @@
 // Traces in any text: vectors as programs print them, with words around them.
 //
 // No program's format is built in. The first lines show how words repeat, as in mining templates of logs (He
-// et al., Drain, ICWS 2017). A word before several vectors of a line is no label, nor is one that follows
-// different words on different lines. Before every vector it is a type, such as Vector3 or SIMD3<Float>,
-// otherwise a kind that every joint has: pos, rot. The word before it is the label. Kinds and labels tell
-// which vectors are targets, which are pole targets, and which are not positions.
+// et al., Drain, ICWS 2017). A word before several vectors of a line is not a label, nor is one that follows
+// different words on different lines. Before every vector it is a type, such as Vector3 or SIMD3<Float>;
+// otherwise it is a kind that every joint has: pos, rot. The word before it is the label. Kinds and labels
+// tell which vectors are targets, which are pole targets, and which are not positions.
 //
 // A gap between vectors may start a frame: a closing bracket, a line break, other text, a blank line or ---.
-// The first of these that splits the joints into groups of one size is used: brackets, if a frame fills a
-// line; line breaks; names that repeat; wider gaps; positions that return to almost the same values. A group
-// without joints, such as a lone target, belongs to the frame before it or, if the file begins with such a
-// group, after it.
+// The first of these that splits the joints into groups of equal size is used: brackets, if a frame fills a
+// line; line breaks; repeated names; wider gaps; positions that return to almost the same values. A group
+// without joints, such as a lone target, belongs to the frame before it or, at the start of the file, to the
+// one after it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,12 +32,12 @@ namespace tendril::app {
 namespace {
 
 enum Says : unsigned {
-    Position = 1,    ///< the numbers are one
-    NoPosition = 2,  ///< they are something else
-    AsKind = 4       ///< only if every joint has one: p=(...) r=(...), and not a joint that is called r
+    Position = 1,    ///< the numbers are a position
+    NoPosition = 2,  ///< the numbers are something else
+    AsKind = 4       ///< only if every joint has one, as in p=(...) r=(...); a joint may be called r
 };
 
-/// Whether a word or a part of it, PoleTarget or pole_target, the last one first, says what numbers are.
+/// Whether a word, or a part of it (PoleTarget, pole_target; the last part first), says what the numbers are.
 std::optional<bool> says_position(std::string_view word, bool kind) {
     static const auto words = [] {
         std::map<std::string, unsigned> all;
@@ -88,7 +88,7 @@ Meaning meaning_of(std::string_view name) {
     return has("effector") && !tip ? Meaning::Target : Meaning::Joint;
 }
 
-/// What the words before vectors are, learned from how they repeat.
+/// The roles of words before vectors, learned from how they repeat.
 class Schema {
   public:
     void learn(std::deque<Line>& lines) {
@@ -96,7 +96,7 @@ class Schema {
             for (const LogVector& each : line)
                 homogeneous_ = homogeneous_ || (is_point(each) && length(each.numbers) > 1.02);
         for (Line& each : lines) sort_fours(each);
-        constexpr std::size_t longest = 8;  // words of a type
+        constexpr std::size_t longest = 8;  // words in a type
         for (std::size_t depth = 0; depth < longest; ++depth) learn(lines, depth);
     }
 
@@ -106,7 +106,7 @@ class Schema {
     }
 
   private:
-    /// The words of an item that are no label: how many, and as one text.
+    /// The words of an item that are not its label: their count, and their text.
     std::pair<std::size_t, std::string> kind_of(const std::vector<LogWord>& words) const {
         std::string kind;
         for (std::size_t n = 0; n < words.size(); ++n) {
@@ -119,7 +119,7 @@ class Schema {
         return {words.size(), kind};
     }
 
-    /// A word that follows different words in different places is no label, nor is one before every vector.
+    /// A word after different words in different places is not a label, nor is one before every vector.
     void learn(const std::deque<Line>& lines, std::size_t depth) {
         struct Count {
             std::size_t all = 0;
@@ -178,7 +178,7 @@ class Schema {
         item.phrase += item.kind;
         item.meaning = meaning_of(item.phrase);
         item.is_position = item.matrix || position.value_or(true);
-        // A rotation behind a target's position is the target's.
+        // A rotation after a target's position belongs to the target.
         if (before && (rest.empty() ? !item.is_position || item.numbers.size() != before->numbers.size()
                                     : rest.size() == 1 && !item.is_position))
             item.meaning = before->meaning;
@@ -188,7 +188,7 @@ class Schema {
         return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3]);
     }
     static bool is_point(const LogVector& each) { return each.numbers.size() == 4 && each.numbers[3] == 1.0; }
-    /// Four numbers are a quaternion if they are 1 long, or a point if the last is 1: in all of them, then.
+    /// Four numbers are a quaternion if their length is 1, or a point if the last one is 1 in every vector.
     void sort_fours(std::vector<LogVector>& items) const {
         for (LogVector& each : items)
             if (homogeneous_ && is_point(each)) each.numbers.pop_back();
@@ -197,7 +197,7 @@ class Schema {
         });
     }
 
-    std::map<std::string, bool> kinds_;  ///< words that are no labels; whether they are before every vector
+    std::map<std::string, bool> kinds_;  ///< not labels; whether before every vector
     bool homogeneous_ = false;
 };
 
@@ -226,7 +226,7 @@ class LogTrace final : public RawTrace {
     }
 
   private:
-    /// False at the end or at damage, which next() throws after all frames before it.
+    /// False at the end, or at damaged text, which next() reports after all frames before it.
     bool read(Line& items) {
         items.clear();
         try {
@@ -288,10 +288,10 @@ class LogTrace final : public RawTrace {
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
     }
-    /// Whether positions without names keep their distances, all but the last one.
+    /// True if unnamed positions keep their distances, except the last one.
     bool last_is_target(const std::vector<const LogVector*>& joints) {
         const std::size_t count = period_ > 0 ? period_ : joints_;
-        /// The share by which a distance varies, without the tenth at either end.
+        /// The fraction by which a distance varies, without the tenth at either end.
         const auto change = [&](std::size_t bone) {
             std::vector<double> lengths;
             for (; bone < joints.size(); bone += count) {
@@ -312,7 +312,7 @@ class LogTrace final : public RawTrace {
                         " positions was taken for the target: its distance from the one before changes");
         return true;
     }
-    /// Whether gaps of at least `level` split the joints into groups of one size, or of alternating chains.
+    /// True if gaps of at least `level` split the joints into groups of one size, or of alternating chains.
     bool splits(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps,
                 unsigned level) {
         std::map<std::size_t, std::size_t> counts;  // groups by size
@@ -401,7 +401,7 @@ class LogTrace final : public RawTrace {
             group_.push_back(std::move(each));
         }
     }
-    /// Makes a frame of the pending group, or one for each of two sides.
+    /// Turns the pending group into a frame, or into one for each of two sides.
     void emit() {
         Line group = std::exchange(pending_, {});
         const std::size_t joints = joints_in(group);
@@ -431,7 +431,7 @@ class LogTrace final : public RawTrace {
             ready_.push_back(std::move(frames[i]));
         }
     }
-    /// Takes the names of the first frame's joints, if all have one; of two sides, the left one's.
+    /// Uses the names of the first frame's joints, if all have one; with two sides, the left one's.
     void name_bones(const Line& group) {
         if (std::exchange(named_, true) || !chains_.empty()) return;
         for (const LogVector& each : group) {
@@ -484,7 +484,7 @@ class LogTrace final : public RawTrace {
     }
     /// A name that repeats in a frame with two or more unique names is an attribute of each joint: "elbow
     /// (...) side (...) hand (...) side (...)". If names alternate, "a (...) b (...) a (...) b (...)", the
-    /// first one is the positions'.
+    /// first name has the positions.
     void leave_out_attributes(Line& group) {
         std::map<std::string, std::size_t> counts;
         std::vector<std::string> names;
@@ -514,15 +514,15 @@ class LogTrace final : public RawTrace {
     std::unique_ptr<VectorLines> table_;  ///< if set, read instead of scanner_
     std::deque<Line> sample_;             ///< the first lines, for learn()
     Schema schema_;
-    Line group_, pending_;  ///< vectors of the current frame; the one before, while its target may follow
+    Line group_, pending_;  ///< vectors of the current frame; of the one before, while its target may follow
     std::deque<RawFrame> ready_;
     std::set<std::string> labels_;    ///< of the current frame
     std::set<std::string> left_out_;  ///< labels
-    std::set<std::string> chains_;    ///< names, if there are more than one
+    std::set<std::string> chains_;    ///< names, if there are several
     std::size_t left_out_lines_ = 0, first_left_out_ = 0;
     unsigned level_ = 0;      ///< minimum gap between frames; 0: names separate them
     std::size_t joints_ = 0;  ///< in most frames
-    std::size_t period_ = 0;  ///< joints of a frame, if only their positions separate frames
+    std::size_t period_ = 0;  ///< joints per frame, if only positions separate frames
     bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false, aims_ = false;
     std::exception_ptr damage_{};
 };

@@ -52,7 +52,7 @@ double dot(const double* a, const double* b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether three rows, `stride` numbers apart, are orthonormal.
+/// True if three rows, `stride` numbers apart, are orthonormal.
 bool rotates(const double* rows, std::size_t stride) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j)
@@ -61,7 +61,7 @@ bool rotates(const double* rows, std::size_t stride) {
     return true;
 }
 
-/// The position in a 4x4 matrix whose last row or column is (0, 0, 0, 1); empty for any other.
+/// The position in a 4x4 matrix whose last row or column is (0, 0, 0, 1); empty for any other matrix.
 std::vector<double> position_in(const std::vector<double>& m) {
     const double volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                           m[2] * (m[4] * m[9] - m[5] * m[8]);
@@ -171,7 +171,7 @@ void LogScanner::add(std::vector<LogVector>& found, LogVector vector, Numbers nu
         vector.first = false;
         vector.gap = SameLine;
     };
-    // Rows of a matrix have brackets or lines of their own.
+    // Each row of a matrix has its own brackets or line.
     const std::size_t width = count == 4 ? 4 : 3;
     if (count == 4 || (count == 3 && std::abs(dot(numbers.data(), numbers.data()) - 1.0) < 5e-3)) {
         std::size_t next = end;
@@ -243,7 +243,7 @@ void LogScanner::pass_line(std::size_t end) {
     std::vector<LogWord> words = words_before(end);
     if (!heads) heading_.clear();
     loose_ = !heads;
-    constexpr std::size_t most = 3;  // words of a name on a line of its own
+    constexpr std::size_t most = 3;  // words of a name that has its own line
     if (heads || words.size() <= most) heading_.insert(heading_.end(), words.begin(), words.end());
 }
 
@@ -363,7 +363,8 @@ bool LogScanner::named(std::size_t at, std::size_t& end, Numbers& numbers, std::
         if (row > 1 && numbers.size() == 3 * row) break;
     }
     axes_ = row > 1;
-    const bool basis = row == 3 && numbers.size() == 9 && rotates(numbers.data(), 3);  // of a transform
+    const bool basis =
+        row == 3 && numbers.size() == 9 && rotates(numbers.data(), 3);  // the basis of a transform
     if (numbers.size() < (w_first ? 4 : 3 * row) || numbers.empty() || basis) {
         numbers.clear();
         axes_ = false;
@@ -384,7 +385,7 @@ bool LogScanner::named(std::size_t at, std::size_t& end, Numbers& numbers, std::
     return true;
 }
 
-/// Numbers in brackets, and the length of a row, if they have rows.
+/// Numbers in brackets, and their count per row if they have rows.
 bool LogScanner::list_at(std::size_t& at, Numbers& numbers, std::size_t& row) {
     constexpr std::string_view open = "([{<", close = ")]}>";
     if (!is_any(at, open)) return false;
@@ -446,7 +447,7 @@ bool LogScanner::bracketed(std::size_t at, std::size_t& end, Numbers& numbers, s
     return true;
 }
 
-/// 1.0 2.0 3.0, after a name, beside a pipe or on a line of its own, which may also have a time and several
+/// 1.0 2.0 3.0, after a name, beside a pipe or on its own line, which may also have a time and several
 /// vectors, or be a column. Unreal's transforms are 1.0,2.0,3.0|10.0,20.0,30.0|1.0,1.0,1.0. Moves `at` past
 /// the time.
 bool LogScanner::bare(std::size_t& at, std::size_t& end, Numbers& numbers) {
@@ -486,7 +487,7 @@ bool LogScanner::bare(std::size_t& at, std::size_t& end, Numbers& numbers) {
         return column(at, end, numbers);
     } else if (row && n > 4) {
         const bool pose = n == 7 && is_unit(&numbers[3]);
-        skip = pose ? 0 : n % 3;  // perhaps an index, and the time
+        skip = pose ? 0 : n % 3;  // perhaps an index and the time
         fits = skip < 2 || tokens_[at].is_whole();
         if (fits && skip > 0 && n > 5 && std::isfinite(numbers[skip - 1])) stamp_ = numbers[skip - 1];
     } else if (row) {
@@ -511,7 +512,7 @@ bool LogScanner::bare(std::size_t& at, std::size_t& end, Numbers& numbers) {
     return true;
 }
 
-/// Three or four numbers, each on a line of its own.
+/// Three or four numbers, each on its own line.
 bool LogScanner::column(std::size_t at, std::size_t& end, Numbers& numbers) {
     numbers.clear();
     for (std::size_t here = at; numbers.size() < 5;) {

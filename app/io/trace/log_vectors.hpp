@@ -1,4 +1,4 @@
-// Vectors in any text, with the words before them. For traces in logs.
+// Finds vectors in any text, with the words before them, for traces in logs.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 namespace tendril::app {
 
 struct LogToken {
-    char kind = 0;        ///< '0' a number, 'a' a word, '\n' the end of a line, else the character itself
-    bool spaced = false;  ///< white space precedes it
+    char kind = 0;        ///< '0' for a number, 'a' for a word, '\n' for a line's end, else the character
+    bool spaced = false;  ///< follows white space
     std::string_view text{};
     double value = 0.0;
 
@@ -25,9 +25,9 @@ void add_tokens(std::vector<LogToken>& tokens, std::string_view line);
 
 /// A word before a vector, or a whole number.
 struct LogWord {
-    std::string text{}, name{};  ///< as written, and in lower case
+    std::string text{}, name{};  ///< as written; in lower case
     bool ends_phrase = false,
-         names = false;  ///< a comma or a closing bracket follows; a colon or an equals sign
+         names = false;  ///< followed by a comma or closing bracket; by a colon or equals sign
 
     bool is_number() const { return is_digit(text[0]) && text.find_first_not_of("0123456789") == text.npos; }
 };
@@ -44,12 +44,12 @@ enum Gap : unsigned {
 
 /// Three or four numbers, and the words before them.
 struct LogVector {
-    std::vector<LogWord> words{};  ///< the last is next to the numbers
+    std::vector<LogWord> words{};  ///< the last one is next to the numbers
     std::vector<double> numbers{};
-    bool first = false;       ///< of its line
-    bool matrix = false;      ///< this is a matrix's position
-    bool missing = false;     ///< its cells are empty: a joint is NaN, a target absent
-    unsigned gap = SameLine;  ///< plus the number of brackets closed in it
+    bool first = false;       ///< the first of its line
+    bool matrix = false;      ///< the position of a matrix
+    bool missing = false;     ///< empty cells: a joint is NaN, a target absent
+    unsigned gap = SameLine;  ///< plus the number of brackets closed in the gap
     std::size_t line = 0;
     std::optional<double> stamp{}, dt{};  ///< seconds
     std::string chain{};                  ///< from a table's column
@@ -67,14 +67,14 @@ void add_words(std::vector<LogWord>& words, std::string_view text);
 class VectorLines {
   public:
     virtual ~VectorLines() = default;
-    /// The vectors of the next line that has some; false at the end.
+    /// The vectors of the next line that has any; false at the end.
     virtual bool next(std::vector<LogVector>& found) = 0;
 };
 /// Reads CSV, or cells copied from a spreadsheet. Null if the first lines have no column names.
 std::unique_ptr<VectorLines> open_table(Lines& lines, RawTrace& trace);
 
-/// Finds (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 after a name or on a line of their own, poses, and the
-/// positions of matrices, each on one line or over several. Sets the trace's engine if the notation shows it.
+/// Finds (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 after a name or on a line of their own, poses, and positions of
+/// matrices, on one or several lines. Sets the trace's engine if the notation shows it.
 class LogScanner final : public VectorLines {
   public:
     LogScanner(Lines& lines, RawTrace& trace) : lines_(lines), trace_(trace) {}
@@ -107,15 +107,15 @@ class LogScanner final : public VectorLines {
 
     Lines& lines_;
     RawTrace& trace_;
-    std::vector<LogToken> tokens_;  ///< of the lines that pull() added
+    std::vector<LogToken> tokens_;  ///< tokens of the lines that pull() added
     std::size_t pulled_ = 0, from_ = 0,
                 bullets_ = 0;       ///< lines; the token after the last vector; - - at the start of a line
     std::vector<LogWord> heading_;  ///< words of earlier lines, for the next vector
-    bool loose_ = false;            ///< the heading is ordinary text
+    bool loose_ = false;            ///< the heading is plain text
     std::optional<double> stamp_{};
-    double scale_ = 1.0;  ///< of the rows that follow, from MATLAB's 1.0e+03 *
+    double scale_ = 1.0;  ///< for the following rows, from MATLAB's 1.0e+03 *
     unsigned gap_ = SameLine, opened_ = 0, closed_ = 0;
-    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines whose numbers are not vectors
+    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines without vectors: how many, and the first
     bool components_ = false, scaled_ = false, lone_ = false, axes_ = false;
 };
 

@@ -17,7 +17,7 @@ void fail_line(std::size_t line, const std::string& what) {
 
 namespace {
 
-/// Calls `see` for each run of digits and commas that has commas between digits, with their count.
+/// Calls `see` for each run of digits with commas between them, with the number of commas.
 void for_each_comma_run(std::string& text, auto see) {
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = at, commas = 0;

@@ -1,5 +1,5 @@
-// Frames of a trace as they are written, in the file's own space and unit: JSON Lines, tables, or vectors in
-// any text, as a log has them.
+// Frames of a trace in the file's own space and unit: JSON Lines, tables, or vectors in any text, such as a
+// log.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,21 @@ namespace tendril::app {
 
 inline constexpr std::size_t max_trace_joints = 4096;
 
-/// Values may be NaN or infinite: that is what people look for.
+/// Values may be NaN or infinite: users look for those.
 struct RawFrame {
-    std::string chain{};  ///< empty if it has no name
+    std::string chain{};  ///< empty if unnamed
     std::optional<double> time{}, dt{};
     std::vector<glm::dvec3> joints{};
     std::optional<glm::dvec3> target{}, pole{};
-    std::vector<glm::dvec4> rotations{};  ///< as written; empty, or one a bone or a joint
-    std::size_t line = 0;                 ///< from 1, where the frame begins
+    std::vector<glm::dvec4> rotations{};  ///< as written; empty, or one per bone or per joint
+    std::size_t line = 0;                 ///< where the frame begins, from 1
 };
 
 /// The first line. Callers check its texts.
 struct TraceHeader {
     std::string up, handed, unit, rotations, engine;
     std::optional<double> fps;
-    std::optional<std::size_t> target_joint;  ///< the one that reaches for the target
+    std::optional<std::size_t> target_joint;  ///< the joint that reaches for the target
     std::vector<std::string> bones;
     std::vector<ik::BendLimit> limits;
 };
@@ -47,7 +47,7 @@ class Lines {
     explicit Lines(std::istream& in);
     /// A line not yet taken: 0 is the next one. Null past the last.
     const std::string* ahead(std::size_t index);
-    bool next(std::string& text);  ///< takes one; false at the end
+    bool next(std::string& text);  ///< takes one line; false at the end
     void drop(std::size_t count);  ///< takes `count` lines
     std::size_t taken() const { return taken_; }
     std::size_t bytes() const { return bytes_; }  ///< read so far
@@ -70,8 +70,8 @@ class RawTrace {
     std::size_t line() const { return lines_.taken(); }  ///< lines taken so far
 
     TraceHeader header;
-    Engine engine = Engine::Unknown;  ///< as far as it can be told from what was read
-    std::vector<std::string> notes;   ///< for display: what was left out
+    Engine engine = Engine::Unknown;  ///< as far as the text shows it
+    std::vector<std::string> notes;   ///< for display: what was omitted
 
   protected:
     Lines lines_;
@@ -80,7 +80,7 @@ class RawTrace {
 /// Detects the format. Throws std::runtime_error if the stream is empty.
 std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 
-// For the formats.
+// Helpers of the formats.
 
 inline bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -90,13 +90,13 @@ inline bool is_digit(char c) {
 }
 /// "line 3: <what>"
 [[noreturn]] void fail_line(std::size_t line, const std::string& what);
-/// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, 1.5D+00, 0x1.8p+0, nan,
+/// Parses a number at the start of `text` in any language's notation: 1.5, 1.5f, 1.5D+00, 0x1.8p+0, nan,
 /// -nan(ind), null, inf, 1.#QNAN. Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
 /// Seconds per unit of a column or word: 1e-3 for "time_ms" and "time [ms]"; 0 if it is not a time.
 double time_unit(std::string_view name);
-/// Whether a column's name says that the numbers are not a position: "elbow_rotation", "hand.rpy".
+/// True if a column's name shows that its numbers are not a position: "elbow_rotation", "hand.rpy".
 bool names_no_position(std::string_view name);
 /// "left_elbow", "elbow.r" and "RightElbow" are the elbow of the left (0) or right (1) side. In lower case.
 struct Sided {
@@ -106,7 +106,7 @@ struct Sided {
 std::optional<Sided> sided(std::string_view name);
 
 std::unique_ptr<RawTrace> open_json_trace(Lines lines);
-/// Reads tables, too.
+/// Also reads tables.
 std::unique_ptr<RawTrace> open_log_trace(Lines lines);
 
 }  // namespace tendril::app

@@ -15,14 +15,14 @@
 namespace tendril::app {
 namespace {
 
-/// Any direction across this one.
+/// Any direction perpendicular to this one.
 glm::vec3 across(glm::vec3 way) {
     const glm::vec3 other =
         std::abs(way.x) < 0.9f * glm::length(way) ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
     return glm::normalize(glm::cross(way, other));
 }
 
-/// +X for joints in one place.
+/// +X if the points coincide.
 glm::vec3 direction(glm::vec3 from, glm::vec3 to) {
     const float length = glm::distance(from, to);
     return length > 0.0f ? (to - from) / length : glm::vec3(1, 0, 0);
@@ -49,7 +49,7 @@ std::vector<ik::Limit> TraceSolve::limits(std::span<const glm::vec3> joints) con
     if (hinge == 0) return {};
     const auto joint = static_cast<std::size_t>(hinge);
     if (joint + 1 >= joints.size()) throw std::invalid_argument("a hinge must be between root and tip");
-    // Angles count from the pose in the first frame, where the bend is that far from straight.
+    // Angles count from the first frame's pose, where the joint is already bent by `bend`.
     const glm::vec3 above = direction(joints[joint - 1], joints[joint]),
                     below = direction(joints[joint], joints[joint + 1]), axis = glm::cross(above, below);
     const float bend = ik::angle_between(above, below);
@@ -95,10 +95,10 @@ const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {
 
 namespace {
 
-/// What a solve of the frames around a flip came to.
+/// The result of solving the frames around a flip.
 struct Attempt {
-    bool flips = false, flips_there = false;  ///< in any frame, and where the engine's chain does
-    bool reaches = false;                     ///< in every frame as well as the engine's
+    bool flips = false, flips_there = false;  ///< in any frame; in the frame where the engine's chain flips
+    bool reaches = false;                     ///< gets as close as the engine in every frame
 
     bool prevents() const { return reaches && !flips; }
 };
@@ -148,7 +148,7 @@ class Attempts {
     float reach_ = 0.0f, allowed_;
 };
 
-/// A place for the pole target, in the first of eight directions around the target's line that helps.
+/// A position for the pole target that prevents the flip, in the first of eight directions that works.
 std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame& at, const TraceSolve& base) {
     constexpr std::array shares{0.02f, 0.05f, 0.1f, 0.2f, 0.4f, 0.8f};
     constexpr int ways = 8, halvings = 4;

@@ -1,4 +1,4 @@
-// Traces as tables: CSV, or what a spreadsheet copies.
+// Traces as tables: CSV, or cells copied from a spreadsheet.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -26,7 +26,7 @@ std::vector<std::string_view> cells(std::string_view line, char separator) {
     }
 }
 
-/// The one that parts the line into most cells; spaces only where there is no other.
+/// The separator that splits the line into most cells; spaces only if there is no other.
 char separator_of(std::string_view line) {
     char best = ' ';
     std::ptrdiff_t most = 0;
@@ -92,7 +92,7 @@ std::optional<PointColumn> point_column(std::string_view cell) {
     return PointColumn{name, axis, prefix};
 }
 
-/// One per cell. Empty for "z-score" and "velocity", which have no x column.
+/// One per cell. Empty for names such as "z-score" and "velocity", which have no x column.
 std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::string_view>& row) {
     std::vector<std::optional<PointColumn>> points;
     std::map<std::string, unsigned> axes;
@@ -106,14 +106,14 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
     return points;
 }
 
-/// Whether a column's name is an axis alone: X, or X1 as in a .trc file.
+/// True if a column's name is only an axis: X, or X1 as in a .trc file.
 bool is_axis(std::string_view cell) {
     cell = cell.substr(0, std::min(cell.find_first_of("0123456789"), cell.size()));
     return cell.size() == 1 && std::string_view("xyzwXYZW").find(cell) != cell.npos;
 }
 
-/// The column names in a line. If they are axes alone, the line above has the names of points, each over
-/// three columns or repeated: "shoulder,,,elbow,," over "X,Y,Z,X,Y,Z".
+/// The column names in a line. If they are only axes, the line above has the names of points, each over three
+/// columns or repeated: "shoulder,,,elbow,," over "X,Y,Z,X,Y,Z".
 std::vector<std::string> column_names(Lines& lines, std::size_t at, char separator) {
     const auto row = split(*lines.ahead(at), separator);
     std::vector<std::string> names(row.begin(), row.end());
@@ -141,7 +141,7 @@ std::vector<std::string> column_names(Lines& lines, std::size_t at, char separat
             if (is_axis(row[i]))
                 points[i] = std::string(upper[i]) + (points[i].empty() ? "" : " ") + points[i];
     }
-    std::size_t count = 0;  // of points without names
+    std::size_t count = 0;  // number of unnamed points
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (!is_axis(row[i])) continue;
         if ((row[i][0] | 0x20) == 'x') ++count;
@@ -196,14 +196,14 @@ struct Column {
     Role role = Role::Ignored;
     std::size_t point = 0;
     std::size_t axis = 0;
-    double unit = 1.0;  ///< seconds per unit, if it is a time
+    double unit = 1.0;  ///< seconds per unit, for a time column
 };
 
 class TableRows final : public VectorLines {
   public:
     TableRows(Lines& lines, char separator) : lines_(lines), separator_(separator) {}
 
-    /// `names`: as strings, of all columns.
+    /// `names`: the names of all columns.
     void read_names(const std::vector<std::string>& names, RawTrace& trace) {
         const std::vector<std::string_view> row(names.begin(), names.end());
         const auto points = point_columns(row);
@@ -272,7 +272,8 @@ class TableRows final : public VectorLines {
             if (column.role == Role::Chain)
                 chain = std::string(row[i]);
             else if (column.role == Role::Time)
-                time = number ? std::optional(*number * column.unit) : std::nullopt;  // it may be a date
+                time = number ? std::optional(*number * column.unit)
+                              : std::nullopt;  // otherwise it may be a date
             else if (row[i].empty() && column.role == Role::Point)
                 empty[column.point] = true;
             else if (!number)
@@ -301,7 +302,7 @@ class TableRows final : public VectorLines {
     Lines& lines_;
     char separator_;
     std::vector<Column> columns_;
-    std::vector<LogVector> points_;  ///< without numbers
+    std::vector<LogVector> points_;  ///< points without their numbers
     bool first_ = true;
 };
 

@@ -88,7 +88,7 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
 
 namespace {
 
-/// The power of ten; the minimum of int for 0 and what is not finite.
+/// The power of ten; the minimum of int for 0 and for values that are not finite.
 int size_of(double value) {
     const double size = std::log10(std::abs(value));
     return std::isfinite(size) ? static_cast<int>(std::floor(size)) : std::numeric_limits<int>::min();
@@ -102,7 +102,7 @@ void Rounding::add(double value) {
     if (error != std::errc() || !std::isfinite(value) || value == 0.0) return;
     const std::string_view digits(text, static_cast<std::size_t>(end - text));
     const std::size_t point = std::min(digits.find('.'), digits.size());
-    // Of 1400 it is -2.
+    // -2 for 1400.
     const int decimals = point < digits.size() ? static_cast<int>(digits.size() - point - 1)
                                                : -static_cast<int>(point - 1 - digits.find_last_not_of('0'));
     Digits& size = sizes_[size_of(value)];
@@ -117,7 +117,7 @@ double Rounding::of(double value) const {
     if (const auto same = sizes_.find(size_of(value)); same != sizes_.end() && known(*same)) {
         decimals = same->second.decimals;
     } else if (value != 0.0) {
-        // Of significant digits, smaller numbers show how many there are.
+        // If a log keeps significant digits, smaller numbers show how many.
         for (auto below = sizes_.begin(); below != sizes_.upper_bound(size_of(value)); ++below)
             if (known(*below) && below->second.decimals < all_)
                 decimals = std::min(all_, below->second.decimals - (size_of(value) - below->first));
@@ -153,7 +153,7 @@ bool TraceReader::next_raw(RawFrame& frame) {
 
 namespace {
 
-/// How far from the target each joint is over the frames: the median, at the best of some lags.
+/// Each joint's distance from the target over the frames: the median, at the best of some lags.
 std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
     constexpr std::size_t max_lag = 30;
     std::vector<double> distances(frames.front().joints.size(), std::numeric_limits<double>::infinity());
@@ -174,9 +174,9 @@ std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
 
 }  // namespace
 
-// The last joint, unless another is far nearer to the target: a wrist with a hand beyond it.
+// Finds the joint that reaches for the target: the last, or one far nearer, such as a wrist before a hand.
 void TraceReader::find_end_effectors() {
-    constexpr double nearer = 0.25, near = 0.02;  // times the last joint's distance; of the reach
+    constexpr double nearer = 0.25, near = 0.02;  // fraction of the last joint's distance; of the reach
     if (given_end_) {
         std::size_t most = 0;
         for (const auto& [name, joints] : joints_) most = std::max(most, joints - 1);
@@ -219,13 +219,13 @@ void TraceReader::find_rate() {
     if (steps.empty()) return;
     std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
     const double median = steps[steps.size() / 2];
-    if (median == 1.0) return;  // numbers of frames
-    // Times are rounded: the mean of the steps is nearer than any of them.
+    if (median == 1.0) return;  // the times are frame numbers
+    // Times are rounded: the mean of the steps is more accurate than any of them.
     double sum = 0.0, count = 0.0;
     for (const double each : steps)
         if (std::abs(each - median) <= 0.25 * median) sum += each, count += 1.0;
     double step = sum / count;
-    while (step >= 1.0 && step < 1e12) step /= 1000.0;  // milliseconds, or less
+    while (step >= 1.0 && step < 1e12) step /= 1000.0;  // milliseconds or smaller
     if (!(step > 1e-6 && step < 1e3)) return;
     fps_ = 1.0 / step;
     fps_known_ = true;
@@ -249,7 +249,7 @@ bool TraceReader::next(TracedFrame& frame) {
     if (frame.end && *frame.end + 1 >= raw.joints.size()) frame.end.reset();
     frame.resolution = 0.0f;
     const auto point = [&](const glm::dvec3& p) {
-        constexpr double floats = 0x1p-23;  // half a unit of a float's last digit, in the engine and here
+        constexpr double floats = 0x1p-23;  // half a unit in a float's last place, in the engine and here
         for (int axis = 0; axis < 3; ++axis) {
             const double off =
                 std::max(rounding_.of(p[axis]), floats * std::abs(p[axis])) * conventions_.metres();
@@ -275,8 +275,8 @@ std::size_t TraceFindings::count() const {
 
 namespace {
 
-/// Finds the incidents of one chain, and tries what would have prevented its flips as soon as the frames
-/// after one are there.
+/// Finds the incidents of one chain, and looks for changes that prevent a flip as soon as enough frames after
+/// it are read.
 class ChainTrial {
   public:
     ChainTrial(std::string name, ik::IncidentOptions options)
@@ -332,7 +332,7 @@ class ChainTrial {
     std::string name_;
     ik::IncidentFinder finder_;
     std::deque<TracedFrame> latest_;
-    std::deque<ik::ChainIncident> waiting_;  ///< flips whose later frames are still to come
+    std::deque<ik::ChainIncident> waiting_;  ///< flips whose following frames are not read yet
     std::size_t seen_ = 0;
     std::map<std::uint64_t, PreventedFlip> tried_;  ///< by frame
 };

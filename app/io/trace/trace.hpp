@@ -1,6 +1,6 @@
-// Reads a trace, which says frame by frame what an engine's chains did, and solves its input again to explain
-// a flip. JSON Lines, CSV, tables, or text with vectors in it; the space is converted to Tendril's. Streams:
-// memory does not grow with the number of frames. The formats: `tendril trace --help`.
+// Reads a trace, which records frame by frame what an engine's chains did, and solves its input again to
+// explain a flip. JSON Lines, CSV, tables, or text with vectors in it; the space is converted to Tendril's.
+// Streams: memory does not grow with the number of frames. The formats: `tendril trace --help`.
 #pragma once
 
 #include <cstddef>
@@ -26,55 +26,56 @@
 
 namespace tendril::app {
 
-// Tendril's own solve of a trace's input, and what would have prevented a flip: small changes
-// under which that solve has none. Each was tried by solving the frames around the flip.
+// Tendril's own solve of a trace's input, and small changes that prevent a flip. Each change was tried by
+// solving the frames around the flip.
 
 bool is_finite_point(glm::vec3 p);
 
 /// A frame of one chain in metres, right-handed, Y up.
 struct TracedFrame {
-    std::string chain;  ///< empty if it has no name
+    std::string chain;  ///< empty if unnamed
     std::vector<glm::vec3> joints;
     std::optional<glm::vec3> target, pole;
-    std::vector<glm::quat> rotations;  ///< empty, or one a bone or a joint
+    std::vector<glm::quat> rotations;  ///< empty, or one per bone or per joint
     std::optional<float> dt;
-    float resolution = 0.0f;  ///< how far a coordinate of a joint may be off by rounding
+    float resolution = 0.0f;  ///< maximum rounding error of a joint's coordinate
     std::size_t line = 0;
-    std::optional<std::size_t> end{};  ///< the joint that reaches for the target; without it, the last
+    std::optional<std::size_t> end{};  ///< the joint that reaches for the target; empty: the last
 
     std::size_t end_effector() const { return end.value_or(joints.size() - 1); }
-    /// The end effector stands in where there is no target.
+    /// The end effector's position if there is no target.
     glm::vec3 goal() const { return target.value_or(joints[end_effector()]); }
-    /// Whether joints, target and pole target are finite.
+    /// True if joints, target and pole target are finite.
     bool finite() const;
 };
 
-/// How the input is solved.
+/// How Tendril solves the input.
 struct TraceSolve {
     ik::Method method = ik::Method::Fabrik;
     float soft_zone = 0.0f;   ///< fraction of the reach, 0 to 1
-    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it, from the root
-    int hinge = 0;            ///< this joint bends one way only, as in the first frame; 0: none
+    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it, relative to the
+                              ///< root
+    int hinge = 0;            ///< this joint only bends one way, as in the first frame; 0: none
 
     bool operator==(const TraceSolve&) const = default;
     /// The pole target of a frame after the change.
     std::optional<glm::vec3> pole(const TracedFrame& frame) const;
-    /// The hinge, for the joints of the first frame up to the end effector; empty without one. Throws
-    /// std::invalid_argument if it is at the root or the tip.
+    /// The hinge as limits for the joints of the first frame, up to the end effector; empty without a hinge.
+    /// Throws std::invalid_argument if it is at the root or the tip.
     std::vector<ik::Limit> limits(std::span<const glm::vec3> joints) const;
-    /// Without the hinge.
+    /// Without the limits.
     ik::Options options(const TracedFrame& frame) const {
         return {.pole = pole(frame), .soft_zone = soft_zone};
     }
 };
 
-/// A chain that is led through frames, from the pose of the first. Joints beyond the end effector are carried
+/// Solves a chain through frames, from the pose of the first one. Joints beyond the end effector are carried
 /// along.
 class Retrace {
   public:
     explicit Retrace(const TraceSolve& how) : how_(how) {}
-    /// The pose in that frame; where the frame is not finite, the one before. Throws std::invalid_argument
-    /// for bones or a method that the solver does not take.
+    /// The pose in that frame; if the frame is not finite, the previous pose. Throws std::invalid_argument if
+    /// the solver refuses the bones or the method.
     const std::vector<glm::vec3>& follow(const TracedFrame& frame);
 
   private:
@@ -87,13 +88,13 @@ class Retrace {
     std::vector<glm::vec3> joints_;
 };
 
-/// A change to how the input is solved.
+/// A change to the solver's settings or input.
 struct Prevention {
     enum class Kind { Method, Pole, SoftZone, Hinge };
     Kind kind = Kind::Method;
     TraceSolve solve;
-    std::optional<glm::vec3> pole{};  ///< where the pole target then is, in the flip's frame
-    bool adds_pole = false;           ///< the trace has none
+    std::optional<glm::vec3> pole{};  ///< its position then, in the flip's frame
+    bool adds_pole = false;           ///< the trace has no pole target
 
     /// "pole target moved by 4.2 cm, to (30.0, -50.0, 140.0) cm"
     std::string text(const Conventions& space) const;
@@ -102,39 +103,39 @@ inline constexpr const char* prevention_names[]{"method", "pole", "soft_zone", "
 
 struct PreventedFlip {
     bool tried = false;
-    std::optional<ik::Method> flips_in;  ///< the method of Tendril that flips on the same input, if one does
+    std::optional<ik::Method> flips_in;  ///< the Tendril method that flips on the same input, if any
     std::vector<Prevention> by;          ///< at most one of each kind
-    bool reaches = false;                ///< a method's tip comes as near to the target as the trace's
-    bool has_pole = false;               ///< the trace
+    bool reaches = false;                ///< some method's tip gets as close to the target as the trace's
+    bool has_pole = false;               ///< whether the trace has a pole target
     /// For display, a clause about `flips_in`.
     std::string text() const;
 };
 
 inline constexpr std::size_t frames_before_flip = 24, frames_after_flip = 16;
-/// Longer chains are not tried, nor are flips once the chains of those before have so many joints together:
-/// it would take seconds.
+/// Longer chains are not tried, nor are any flips once the chains tried have this many joints together: it
+/// would take seconds.
 inline constexpr std::size_t max_tried_joints = 64, max_joints_of_tries = 400;
 
-/// `frames` are consecutive and of one chain; the flip is between `at` and the frame before it, and most of
-/// it at `joint`. Some milliseconds.
+/// `frames` are consecutive frames of one chain; the flip is between frame `at` and the one before, mostly at
+/// `joint`. Takes some milliseconds.
 PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint,
                            ik::FlipCause cause = ik::FlipCause::Unexplained);
 
-/// The last digits of coordinates, which may have a number of decimals or of significant digits: learned for
-/// each power of ten, where enough different ones were seen.
+/// The rounding of coordinates, to a number of decimals or of significant digits: learned for each power of
+/// ten that has enough different values.
 class Rounding {
   public:
     void add(double value);
-    /// How far a coordinate may be off: half a unit of its last digit.
+    /// Maximum rounding error of a coordinate: half a unit of its last digit.
     double of(double value) const;
 
   private:
-    static constexpr std::size_t enough = 4;  ///< that all end in 0 by chance: 1e-4
+    static constexpr std::size_t enough = 4;  ///< the chance that so many all end in 0 is 1e-4
     struct Digits {
         int decimals = 0;
-        std::set<double> values{};  ///< some
+        std::set<double> values{};  ///< a few of them
     };
-    int all_ = 0;  ///< decimals, the most
+    int all_ = 0;  ///< the maximum number of decimals
     std::map<int, Digits> sizes_;
 };
 
@@ -145,14 +146,14 @@ class TraceReader {
     explicit TraceReader(std::istream& in, const ConventionChoice& choice = {},
                          std::optional<double> fps = {});
 
-    /// False after the last frame, and where the rest is damaged, which is then a note.
+    /// False after the last frame, or where the rest is damaged; a note then says so.
     bool next(TracedFrame& frame);
 
     const Conventions& conventions() const { return conventions_; }
     double fps() const { return fps_; }
-    bool fps_known() const { return fps_known_; }  ///< given, or from the times
+    bool fps_known() const { return fps_known_; }  ///< given, or derived from the times
     const TraceHeader& header() const { return raw_->header; }
-    /// For display: what was left out, where reading stopped.
+    /// For display: what was omitted, and where reading stopped.
     const std::vector<std::string>& notes() const { return notes_; }
 
   private:
@@ -163,10 +164,10 @@ class TraceReader {
     std::unique_ptr<RawTrace> raw_;
     std::deque<RawFrame> first_;
     Conventions conventions_;
-    std::map<std::string, std::size_t> joints_;  ///< of each chain
-    std::optional<std::size_t> given_end_;       ///< of the chains that have so many joints
+    std::map<std::string, std::size_t> joints_;  ///< joints of each chain
+    std::optional<std::size_t> given_end_;       ///< from the header, for chains with that many joints
     std::map<std::string, std::size_t>
-        ends_;  ///< the end effector of a chain, found, unless it is the last joint
+        ends_;  ///< the end effectors found, by chain, unless they are the last joint
     std::vector<std::string> notes_;
     double fps_ = 60.0;
     Rounding rounding_;
@@ -174,27 +175,27 @@ class TraceReader {
 };
 
 struct TracedIncident : ik::ChainIncident {
-    PreventedFlip prevented{};  ///< of a flip
+    PreventedFlip prevented{};  ///< if a flip: how to prevent it
 
     /// "Frame 60: flip at joint 1 (elbow), 128 degrees". Bones as in the header; may be empty.
     std::string title(const std::vector<std::string>& bones, const Conventions& space) const;
-    /// The title, and why.
+    /// The title and the cause.
     std::string text(const std::vector<std::string>& bones, const Conventions& space) const {
         return title(bones, space) + ": " + cause;
     }
 };
 
-/// What was found in a trace, chain by chain.
+/// The incidents found in a trace, by chain.
 struct TraceFindings {
     struct Chain {
-        std::string name;  ///< empty if it has none
+        std::string name;  ///< empty if unnamed
         std::vector<TracedIncident> incidents;
         std::uint64_t frames = 0, left_off = 0;
     };
     std::vector<Chain> chains;
     std::size_t count() const;
 };
-/// Reads to the end. Calls `progress` now and then.
+/// Reads to the end. Calls `progress` from time to time.
 TraceFindings find_incidents(TraceReader& reader, const std::function<void()>& progress = {});
 
 }  // namespace tendril::app

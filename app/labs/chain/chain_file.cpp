@@ -76,7 +76,7 @@ void load_crossings(const JsonPlace& place, ChainPart& part) {
         along.report->jumped = jumped->index(along.given.size() - 1);
 }
 
-/// `json` is how the settings are saved.
+/// Replaces the solver's state in the saved settings, `json`, by the last report.
 Json reach_state(const ChainPart& part, Json json) {
     json.erase("state");
     json.update({{"report", nullptr}, {"active_limit", nullptr}, {"explanation", nullptr}});
@@ -302,7 +302,7 @@ ChainPlane load_plane(const JsonPlace& place, const Chain& chain) {
 }  // namespace
 
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints) {
-    // The state of another chain is worthless: the next solve would discard it.
+    // Ignore the state of another chain: the next solve would discard it.
     const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
     if (state.bones() == 0 || !ik::check(state, bones)) return;
     Json& saved = json["state"] = save_ik_state(state);

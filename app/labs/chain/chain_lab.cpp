@@ -20,7 +20,7 @@ std::string name_of(const ChainPart& part, std::size_t index) {
     return "Joint " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
 }
 
-/// The effect of the mouse on a joint in mode Reach.
+/// The mouse's effect on a joint in mode Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
     const std::string joint = name_of(part, index);
     if (part.study.open()) return joint + ": click selects it.";
@@ -83,7 +83,7 @@ void ChainLab::step(Workspace& workspace) const {
     workspace.toast(*stopped, ToastKind::Refusal);
 }
 
-/// Whether the microscope or the race plays.
+/// True if the microscope or the race plays.
 bool ChainLab::working(const Workspace& workspace) const {
     return chain_part(workspace).study.pace > 0.0f;
 }
@@ -199,7 +199,7 @@ std::vector<PaneTitle> ChainLab::panes(const Workspace& workspace) const {
 
 namespace {
 
-/// The longer of a racer's texts at its end and in the race's last iteration.
+/// The wider of a racer's texts: at its end, or in the race's last iteration.
 std::string widest_outcome(const Racer& racer, std::size_t last) {
     const std::string end = outcome_text(racer, racer_at(racer, last)),
                       running = progress_text({.iteration = static_cast<int>(last), .joints = {}});

@@ -8,8 +8,7 @@ namespace tendril::app {
 
 inline constexpr PickId target_pick = 0;
 inline constexpr PickId pole_pick = static_cast<PickId>(max_segments) + 1;
-// Pick ids of limit ends, two per bone, in a plane; in mode Curve, of control points and of the strokes that
-// draw the curve.
+// Pick ids: limit ends, two per bone, in a plane; in mode Curve, control points and the strokes of the curve.
 inline constexpr PickId first_limit_pick = pole_pick + 1;
 inline constexpr PickId first_control_pick = first_limit_pick + 2 * static_cast<PickId>(max_segments);
 inline constexpr PickId first_curve_pick = first_control_pick + static_cast<PickId>(max_control_points);
@@ -34,7 +33,7 @@ inline std::optional<std::size_t> picked_control(PickId pick) {
     if (pick < first_control_pick || pick >= first_curve_pick) return std::nullopt;
     return static_cast<std::size_t>(pick - first_control_pick);
 }
-/// The middle of the curve's stroke with that pick, if any, as parameter `at` of ik::curve_point().
+/// The middle of the picked stroke of the curve, if any, as parameter `at` of ik::curve_point().
 std::optional<float> picked_on_curve(const ChainPart& part, PickId pick);
 inline PickId segment_pick(std::size_t index) {
     return static_cast<PickId>(index) + 1;

@@ -69,9 +69,9 @@ void put_target_on_led_joint(ChainPart& part) {
 void enter_mode(ChainPart& part, ChainMode mode) {
     if (part.mode == mode) return;
     if (part.mode == ChainMode::Reach) part.reach_target = part.target;
-    // The pose stays, with the bones' own lengths.
+    // Keeps the pose, with the bones' own lengths.
     if (part.mode == ChainMode::Curve) require_ok(part.chain.set_positions(positions(part.along.given)));
-    const bool from_tip = part.mode == ChainMode::Backward;  // its target is on the tip or leads it
+    const bool from_tip = part.mode == ChainMode::Backward;  // its target is on the tip, or leads it
     part.mode = mode;
     part.result.reset();
     put_target_on_led_joint(part);
@@ -171,7 +171,7 @@ float length_error(const Chain& chain, std::size_t index) {
 
 namespace {
 
-/// Whether both would give the same trace or race.
+/// True if both would give the same trace or race.
 bool same_study(const ChainPart& a, const ChainPart& b) {
     return a.study.kind == b.study.kind && a.study.start == b.study.start &&
            a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&

@@ -54,13 +54,13 @@ struct AlongCurve {
     bool operator==(const AlongCurve&) const = default;
 };
 
-/// The chain that is edited and saved: the given one in mode Curve.
+/// The chain that is edited and saved; in mode Curve, the given one.
 const Chain& own_chain(const ChainPart& part);
 /// Places the given chain along the curve; without control points, first draws the curve through the chain.
 /// Throws std::invalid_argument if the library refuses.
 void follow_curve(ChainPart& part);
-/// Call after an edit that changed the given chain in place of the placed one: places it again if needed and,
-/// in other modes, clears AlongCurve.
+/// Call after an edit that changed the given chain, not the placed one: places it again if needed and, in
+/// other modes, clears AlongCurve.
 void keep_on_curve(ChainPart& part, const ChainPart& before);
 
 /// Removes the selected control points. Throws Refused if fewer than two would be left.
@@ -73,8 +73,8 @@ Json save_curve(const CurveSettings& settings);
 CurveSettings load_curve(const JsonPlace& place);
 
 inline constexpr const char* chain_lab = "chain";
-inline constexpr std::size_t max_segments = 500'000;          ///< larger scenes would make too large a file
-inline constexpr std::size_t max_limited_segments = 100'000;  ///< with limits, for the same reason
+inline constexpr std::size_t max_segments = 500'000;          ///< limits the size of scene files
+inline constexpr std::size_t max_limited_segments = 100'000;  ///< lower, because limits take more space
 
 /// How the chain follows its target: the library's four modes, Reach, which pins the head and iterates, and
 /// Curve, whose target is the curve's last control point.
@@ -103,7 +103,7 @@ struct ChainPart final : Part {
     float tolerance = 1e-4f;                    ///< metres, for Fixed
     glm::vec3 target{0.0f};
     Selection selection;                     ///< selected joints
-    std::optional<ChainPoint> chosen_point;  ///< selected instead of joints
+    std::optional<ChainPoint> chosen_point;  ///< selected in place of joints
     Motion motion;
     ReachSettings reach;
     std::optional<ReachResult> result;  ///< of the last solve; empty once the chain moved otherwise
@@ -151,7 +151,7 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 std::size_t led_joint(const ChainPart& part);
 /// Does nothing outside the trailing modes, or while the target follows a path.
 void put_target_on_led_joint(ChainPart& part);
-/// Entering a trailing mode puts the target on its led joint; entering Reach restores the target it last had.
+/// Entering a trailing mode puts the target on its led joint; entering Reach restores Reach's last target.
 void enter_mode(ChainPart& part, ChainMode mode);
 
 /// Clamps the microscope's step to the length of its trace.
@@ -190,7 +190,7 @@ class ChainRuntime final : public Runtime {
 
 }  // namespace tendril::app
 
-/// The values that scenes have as they are; the others have JSON of their own.
+/// The values that scenes store as plain fields; the others have their own JSON.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ChainPart>() noexcept;
 template <>

@@ -29,7 +29,7 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
                                        if (edits) keep_on_curve(part, before);
                                        if (part.mode != ChainMode::Curve)
                                            keep_in_plane(part.chain, part.reach, runtime);
-                                       // The study must always match the chain that is shown.
+                                       // The study must always belong to the chain that is shown.
                                        if (part.study.open() && edits) reach_for(part, part.target, runtime);
                                        check_range(part);
                                        keep_step(part, runtime);
@@ -142,7 +142,7 @@ void set_mode(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     }
 }
 
-/// In ascending order of joints.
+/// In ascending order.
 std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
     const std::vector<std::size_t> joints = joints_of(given, part);
     if (given.has("index") != given.has("to"))

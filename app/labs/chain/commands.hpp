@@ -25,13 +25,13 @@ namespace tendril::app {
 // Dragging joints. In mode Reach, each dragged joint is an effector of its own.
 //
 // The bones from the root to the dragged joint are solved for the drag point; the bones beyond it then reach
-// for the target. So dragging an elbow swings it while the hand keeps hold of the target, as under an IK
-// goal in Blender or an IK handle in Maya, and dragging it back restores the tip, which bones that merely
-// moved along stiffly would not do. Root and target stay. Dragging the tip leaves the target; dragging the
-// root moves the whole chain along before it reaches for the target again. Several dragged joints are solved
-// from the root outwards, each section from where the one before it ended. Joint limits always hold. The
-// pole target acts only when the whole chain is solved (root and tip): it sets where the bend of the whole
-// chain faces, and would fight the hand at any joint between.
+// for the target. So dragging an elbow swings it while the hand stays on the target, like an IK goal in
+// Blender or an IK handle in Maya, and dragging it back restores the tip; bones that were merely carried
+// along rigidly would not return. Root and target stay. Dragging the tip leaves the target alone; dragging
+// the root moves the whole chain, which then reaches for the target again. Several dragged joints are solved
+// from the root outwards, each section from the end of the one before. Joint limits always hold. The pole
+// target acts only when the whole chain is solved (root and tip): it sets where the bend of the whole chain
+// faces, and would fight the mouse at any joint between.
 
 struct JointPull {
     std::size_t joint = 0;
@@ -43,7 +43,7 @@ struct JointPull {
 void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPull> pulls, glm::vec3 target,
                  ChainRuntime& runtime);
 
-/// For the trailing modes: the first joint goes where it is pulled, the others get as near as the bones
+/// For the trailing modes: the first pulled joint goes to its point, the others get as near as the bones
 /// between allow, and both ends trail. Refuses the same input as Chain::with_index.
 Result trail_joints(Chain& chain, std::span<const JointPull> pulls);
 
@@ -66,20 +66,20 @@ std::size_t index_of(const Arguments& given);
 /// Throws Refused if there is no such segment.
 void check_index(const ChainPart& part, std::size_t index);
 
-/// An optional list of joints, for a command that sets the same on all.
+/// An optional list of joints, for a command that sets the same value on all of them.
 Argument joints_argument();
 /// The joints that `index` or `joints` names, in the order given. Throws Refused if both or neither are
 /// given, or if a joint does not exist.
 std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part);
 
-/// The same, ascending and without duplicates; at least one.
+/// The same, ascending and without duplicates; never empty.
 std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part);
 
-/// Pulls joints as chain.pull does; ascending and without duplicates.
+/// Pulls joints as chain.pull does; `pulls` is ascending, without duplicates.
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
 /// A chain with one joint at each point.
 Chain chain_through(const std::vector<glm::vec3>& points);
-/// Solves again for the current target, in mode Reach.
+/// In mode Reach, solves again for the current target.
 void reach_again(ChainPart& part, ChainRuntime& runtime);
 
 /// Throws Refused if no race is open.
@@ -97,7 +97,7 @@ void add_paste_command(CommandTable& table);
 /// chain.save_trace: writes the strip's moments in the format that `tendril trace` reads.
 void add_save_trace_command(CommandTable& table);
 
-/// Whether a file's text begins like a trace, for Lab::files().
+/// True if a file's text begins like a trace, for Lab::files().
 bool begins_like_trace(std::string_view text);
 
 void add_chain_commands(CommandTable& table);
@@ -113,7 +113,7 @@ inline constexpr std::size_t max_listed = 64;
 
 // Preset chains, from presets.json: the bones, and the members of a scene that come with them.
 
-/// Its segments follow `steps`, the last of which repeats, or a path of that name, or rise to that height.
+/// Its segments follow `steps`, the last of which repeats, or a path of that name, or rise to `height`.
 struct Preset {
     std::string name, title;
     int count = 1;     ///< default number of segments
@@ -123,7 +123,7 @@ struct Preset {
     std::vector<glm::vec3> steps;  ///< metres
     std::string path;
     float height = 0.0f;  ///< metres
-    /// "curve", or "reach" with "target" or "target_from_tip". The last one of its limits repeats.
+    /// "curve", or "reach" with "target" or "target_from_tip". The last of its limits repeats.
     std::shared_ptr<const Json> scene;
 
     /// Whether it comes with a curve, and whether it stays in a plane.
@@ -136,12 +136,12 @@ const std::vector<Preset>& presets();
 const Preset& preset_named(const std::string& name);
 /// Only the path "random" uses `seed`.
 Chain make_preset(const Preset& preset, std::size_t count, std::uint32_t seed = 1);
-/// Gives a part that has the preset's chain its mode, settings and target.
+/// Gives a part with the preset's chain its mode, settings and target.
 ///
-/// In the opening view, target, pole target and shoulder of "reaching_arm" have the same depth, so that a
-/// drag of the target in the view plane passes over the pole target, and the elbow flips. The target of
-/// "straight" is on the chain's own line, three quarters of a bone before the tip: both passes of FABRIK
-/// (2011) shift the joints along the line and back, and the chain stays as it is, to the last bit. Nearer to
+/// In the opening view, target, pole target and shoulder of "reaching_arm" have the same depth, so a drag of
+/// the target in the view plane passes over the pole target, and the elbow flips. The target of "straight" is
+/// on the chain's own line, three quarters of a bone before the tip: both passes of FABRIK (2011) shift the
+/// joints along the line and back, and the chain stays as it is, to the last bit. With the target nearer to
 /// the root it would fold onto the line, and could end on the target by chance. From 750 bones on, the gap is
 /// within the default tolerance.
 void take_scene(ChainPart& part, const Preset& preset, ChainRuntime& runtime);

@@ -26,7 +26,7 @@ Cure add_pole(const ChainPart& part) {
             {{"chain.pole", {{"to", first_pole(part)}}}}};
 }
 
-/// Moves the pole target out of the plane in which the target moved, further to the side it is on.
+/// Moves the pole target out of the plane in which the target moved, further to its present side.
 std::optional<Cure> move_pole(const ChainPart& before, const ChainPart& after) {
     const glm::vec3 root = after.chain.position(0), pole = *after.reach.options.pole;
     const glm::vec3 normal = glm::cross(before.target - root, after.target - root);

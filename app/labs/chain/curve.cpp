@@ -50,7 +50,7 @@ const Chain& own_chain(const ChainPart& part) {
 
 namespace {
 
-/// Five of the chain's joints, evenly spread; all joints of a shorter chain.
+/// Five of the chain's joints, evenly spread; all joints if it has fewer.
 std::vector<glm::vec3> points_through(const Chain& chain) {
     const std::size_t bones = chain.size() - 1, spans = std::min<std::size_t>(bones, 4);
     std::vector<glm::vec3> points;
@@ -58,7 +58,7 @@ std::vector<glm::vec3> points_through(const Chain& chain) {
     return points;
 }
 
-/// Whether only control points changed, so that a joint that moves further than the curve has jumped.
+/// True if only control points changed. If so, a joint that moves further than the curve has jumped.
 bool only_points_moved(const ChainPart& before, const ChainPart& after) {
     const ik::CurveOptions &was = before.curve.options, &is = after.curve.options;
     return before.mode == ChainMode::Curve && before.along.given == after.along.given &&

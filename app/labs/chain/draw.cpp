@@ -86,7 +86,7 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
     const glm::vec3 root = shown.part.chain.position(0);
     const float reach = shown.part.chain.reach();
     if (!(reach > 0.0f)) return;
-    if (shown.part.reach.plane) return;  // draw_plane has the circle
+    if (shown.part.reach.plane) return;  // draw_plane draws the circle
     outline(view, list, root, reach);
     const float high = std::abs(root.y);
     if (high >= reach) return;
@@ -161,7 +161,7 @@ class Drawing {
     /// Metres, at the thick end of the bone that ends at joint i.
     float bone_radius(std::size_t i) const { return std::min(0.13f * length(i), 0.16f); }
 
-    /// Pixels. With bones drawn, the ball may be smaller, since the bone itself shows where its joint is.
+    /// Pixels. The ball may be smaller if bones are drawn, since the bone shows where its joint is.
     float joint_radius(std::size_t i) const {
         if (!bones_) return ball_;
         const float bone =
@@ -265,7 +265,7 @@ class Drawing {
     }
 
     void labels() {
-        if (chain_.race) return;  // it shows other joints than the chain's
+        if (chain_.race) return;  // a race shows other joints than the chain's
         if (view_.workspace.settings.labels == LabelMode::Always) {
             const std::size_t stride = part_.chain.size() / max_labels + 1;
             for (std::size_t i = 0; i < part_.chain.size(); i += stride) {
@@ -410,8 +410,8 @@ LabSetting reach_sphere() {
 
 namespace {
 
-/// A sketch of a mode in a 3 by 1 box: the joints from head to tail, the index of the one that goes to the
-/// target, and of the one that stays, if any.
+/// A sketch of a mode in a 3 by 1 box: the joints from head to tail, with the index of the one that goes to
+/// the target, and of the one that stays, if any.
 struct ModePicture {
     std::vector<glm::vec2> joints;
     std::size_t at_target = 0;

@@ -15,7 +15,7 @@
 namespace tendril::app {
 
 // The displayed chain: its present pose or, under the microscope, the pose at a step of the solve. Scene,
-// inspector and --state all use these functions, so that they show the same step.
+// inspector and --state use these functions, so they all show the same step.
 
 /// The lab's part and the result of its study. Refers to the workspace: do not store.
 struct ShownChain : Studied {
@@ -29,7 +29,7 @@ ShownChain shown_chain(const Workspace& workspace);
 /// One position for each joint, metres.
 std::vector<glm::vec3> shown_joints(const ShownChain& shown);
 
-/// Whether the displayed pose is the end of the last solve, not a step on the way.
+/// True if the displayed pose is the end of the last solve, not a step on the way.
 bool shows_end(const ShownChain& shown);
 
 /// The active limit if the end of the solve is shown; otherwise null.
@@ -38,9 +38,9 @@ const ik::ActiveLimit* shown_active_limit(const ShownChain& shown);
 /// A segment's readings for the joints at `joints`.
 struct ShownSegment {
     glm::vec3 position{0.0f};
-    float length = 0.0f;  ///< metres: its bone's displayed length, which may deviate during a solve; the root
-                          ///< has no bone and shows its stored length
-    float error = 0.0f;   ///< metres, deviation from the stored length
+    float length = 0.0f;  ///< metres: its bone's displayed length, which may vary during a solve; for the
+                          ///< root, its stored length
+    float error = 0.0f;   ///< metres, difference from the stored length
 };
 ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>& joints, std::size_t index);
 
@@ -75,14 +75,14 @@ void draw_race(const View& view, const ShownChain& shown, DrawList& list);
 /// One pane for each solver of a side-by-side race; otherwise none.
 std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palette);
 
-/// Drawn under a chain that shows the state after an incident: the pose before it, and the joint's jump.
+/// Drawn under a chain that shows the state after an incident: the pose before, and the joint's jump.
 void draw_incident(const View& view, const ChainPart& part, DrawList& list);
 
 // Colours of this lab alone; the others are in view/palette.hpp.
 
 /// The curve's colour too: pole target and curve both show which way the chain bends.
 glm::vec3 pole_colour(const Palette& palette);
-/// The colour of a solver in a race; solvers differ in lightness, too.
+/// The colour of a solver in a race; solvers also differ in lightness.
 glm::vec3 solver_colour(const Palette& palette, ik::Method method);
 
 }  // namespace tendril::app

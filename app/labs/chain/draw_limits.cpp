@@ -43,7 +43,7 @@ class LimitDrawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool is_active(std::size_t i) const { return active_ != nullptr && active_->joint == i; }
 
-    /// The limit in a plane: a hinge about its normal, measured from straight on or from the base.
+    /// The limit in a plane: a hinge about its normal, measured from straight or from the base.
     ik::Limit limit_at(std::size_t i) const {
         if (!plane_) return limit_of(part_.reach, i);
         const ik::AngleLimit limit = angle_limit_of(*plane_, i);

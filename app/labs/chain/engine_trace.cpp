@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::uint64_t max_from = 2'000'000'000;
 
-/// The rows of a trace's view that say how Tendril solves it.
+/// The fields of a trace's view that set how Tendril solves it.
 std::span<const Field> solve_fields() {
     return fields<TraceView>().first(4);
 }
@@ -43,7 +43,7 @@ std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
     return file;
 }
 
-/// The chain of that name; without a name, the first chain with an incident.
+/// The chain of that name; if the name is empty, the first chain with an incident.
 const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, std::string_view name) {
     if (name.empty()) {
         const auto found = std::ranges::find_if(
@@ -63,7 +63,7 @@ bool joints_are_finite(const TracedFrame& frame) {
 }
 
 /// Replaces joints, targets and pole targets that are not finite by the last finite ones. Before the first,
-/// joints take the first finite ones, and target and pole target are left out.
+/// joints use the first finite ones, and target and pole target are omitted.
 void hold_finite(std::vector<TracedFrame>& frames) {
     const auto first = std::ranges::find_if(frames, joints_are_finite);
     if (first == frames.end()) throw Refused("the trace has no frame whose joints are all finite");
@@ -101,7 +101,7 @@ void find_all(ShownTrace& trace, const std::string& chain) {
     view.rotations = trace.conventions.rotations.value;
 }
 
-/// Keeps as many frames as the strip holds: from `from` on or, without it, around the first incident.
+/// Keeps as many frames as the strip holds, from `from` on or, without it, around the first incident.
 void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
     const std::uint64_t half = Rewind::max_ticks / 2;
     const std::uint64_t first = trace.incidents.empty() ? 0 : trace.incidents.front().frame;
@@ -208,7 +208,7 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
     return found == nullptr ? said : said + ". " + found->text(trace.bones, trace.conventions);
 }
 
-/// Puts the trace on the strip and shows its first fault; with `same_frames` the strip stays at its moment.
+/// Puts the trace on the strip and shows its first fault; with `same_frames`, keeps the strip's moment.
 void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& trace, bool same_frames) {
     Moments moments(trace);
     const std::uint64_t last = moments.all.size() - 1;
@@ -217,7 +217,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
                              : wrong     ? wrong->frame - static_cast<std::uint64_t>(trace->view.from)
                                          : last;
     workspace.open_lab(chain_lab);
-    ++workspace.beginnings;  // the strip holds the trace, not what was before it
+    ++workspace.beginnings;  // the strip now holds the trace, not the past before it
     workspace.rewind.clear();
     workspace.discarded.reset();
     workspace.clock.playing = false;
@@ -235,7 +235,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
     }
     if (!same_frames) {
         workspace.ui.incident.reset();
-        workspace.ui.incident_chosen = false;  // the title names it
+        workspace.ui.incident_chosen = false;  // the title names the incident
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
     }
     if (same_frames) {
@@ -254,7 +254,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
     for (const std::string& note : trace->notes) workspace.toast(note, ToastKind::Refusal);
 }
 
-/// Takes the given arguments on how the trace is read; returns whether there are any.
+/// Takes the given arguments for reading the trace; returns whether there are any.
 bool take_choice(ConventionChoice& choice, const Arguments& given) {
     bool any = false;
     const auto take = [&](const char* name, std::string& into) {
@@ -338,7 +338,7 @@ ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
     const ShownTrace& trace = *pose.trace;
     const TracedFrame& first = trace.frames.front();
     const auto written = [&](glm::vec3 p) { return glm::vec3(trace.conventions.written(p)); };
-    // The ghost goes along with the root.
+    // The ghost moves with the root.
     const glm::vec3 by = pose.joints.front() - first.joints.front();
     std::vector<glm::vec3> joints;
     for (std::size_t i = 0; i <= first.end_effector(); ++i) joints.push_back(written(first.joints[i] + by));
@@ -350,7 +350,7 @@ ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
     if (trace.view.hinge > 0) {
         glm::vec3& axis = there.reach.limits[static_cast<std::size_t>(trace.view.hinge)].axis;
         axis = glm::normalize(written(axis));
-        if (trace.conventions.handed.value == TraceHand::Left) axis = -axis;  // a mirror turns the other way
+        if (trace.conventions.handed.value == TraceHand::Left) axis = -axis;  // mirroring reverses the angle
     }
     return there;
 }

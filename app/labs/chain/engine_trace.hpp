@@ -45,13 +45,13 @@ struct ShownTrace {
 /// The trace frame that the chain shows; null if it shows none.
 const TracedPose* traced_pose(const ChainPart& part);
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list);
-/// The incident of the frame that the chain shows, the latest to begin; else the first in the strip's frames.
+/// The incident of the shown frame, the latest to begin; else the first incident on the strip.
 Verdict trace_verdict(const TracedPose& pose);
 /// Joints and targets of all shown frames.
 std::vector<glm::vec3> traced_points(const TracedPose& pose);
-/// The ghost's first pose, and what it solves now, in the axes and unit of the trace: for export.
+/// The ghost's first pose, and the present target, in the axes and unit of the trace: for export.
 ChainPart part_as_written(const ChainPart& part, const TracedPose& pose);
-/// Panel: how the trace is read and why, and how Tendril solves it.
+/// Panel: how the trace is read, why, and how Tendril solves it.
 void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit);
 
 void add_trace_commands(CommandTable& table);

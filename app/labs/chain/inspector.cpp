@@ -95,7 +95,7 @@ void follow_selection(const ChainPart& part, float row_height) {
     if (std::exchange(followed, selected) == selected || selected < 0) return;
     const float top = static_cast<float>(selected) * row_height;
     const float visible =
-        ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, less the row itself
+        ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, minus the row itself
     if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + visible)
         ImGui::SetScrollY(top - 0.5f * visible);
 }
@@ -139,7 +139,7 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     selection_rows(shown, joints, emit);
     if (reaches) limit_rows(shown.part, joints, emit);
     chain_rows(shown, joints);
-    // No reference into the storage: the rows below add to it, which moves its elements.
+    // Do not keep references into the storage: the rows below add to it, which moves its elements.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID below = ImGui::GetID("below the table");
     if (const FoldingSection open(workspace, "Joints, in metres", emit, false); open)

@@ -35,8 +35,7 @@ void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles
     if (points != part.curve.points) emit_points(part, std::move(points), emit);
 }
 
-/// A rotation about the plane's normal that represents the angle of a limit's end. Only its change in a drag
-/// matters.
+/// A rotation about the plane's normal for the angle of a limit's end. Only its change in a drag matters.
 glm::quat limit_turn(glm::vec3 normal, float angle) {
     return glm::angleAxis(angle, normal) * least_rotation({0.0f, 0.0f, 1.0f}, normal);
 }
@@ -61,7 +60,7 @@ void drag_limit(const ChainPart& part, const LimitEnd& end, const glm::quat& to,
 
 }  // namespace
 
-/// A drag turns it about the joint, whatever the size of the arc in the picture.
+/// A drag turns it about the joint, regardless of the arc's size in the picture.
 std::optional<Handle> limit_handle(const ChainPart& part, const LimitEnd& end) {
     const auto& plane = part.reach.plane;
     if (!plane || part.mode != ChainMode::Reach || part.study.open() || end.joint >= plane->limits.size())
@@ -227,7 +226,7 @@ struct Section {
     std::vector<float> lengths;        ///< metres, one per bone
     std::vector<glm::vec3> joints;     ///< one more than bones
     std::vector<glm::quat> rotations;  ///< one per bone; only with limits
-    glm::vec3 base{1, 0, 0};           ///< direction of its first bone at angle 0: the bone before it
+    glm::vec3 base{1, 0, 0};           ///< direction of its first bone at angle 0: that of the bone before it
 };
 
 Section section_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
@@ -358,7 +357,7 @@ class SectionDrag {
         at_ = to;
         root_moved_ = true;
     }
-    /// To within a fraction of a pixel, if the joint can get there.
+    /// Ends within a fraction of a pixel, if the joint can get there.
     void drag(const JointPull& pull) {
         Section section = section_of(chain_, settings_, first_, pull.joint - first_);
         float reach = 0.0f;

@@ -51,7 +51,7 @@ void preset_button(const Preset& preset, int of, Emit& emit) {
 
 namespace {
 
-/// In order of importance: Reach and Curve first, then the four trailing modes.
+/// The most important first: Reach and Curve, then the four trailing modes.
 constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, ChainMode::Forward,
                                     ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
 
@@ -66,7 +66,7 @@ void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Em
         draw_mode(mode, colours, first ? half + ImGui::GetStyle().ItemSpacing.x : 0.0f,
                   first || second ? 0.62f : 1.0f);
     }
-    study_rows(part, emit);  // above the rows that depend on the mode: opening either changes it to Reach
+    study_rows(part, emit);  // above the rows that depend on the mode: opening a study changes it to Reach
 
     const auto with = [&](const char* name, ArgumentValue value) {
         emit.continuously("chain.mode", {{"mode", chain_modes.name(part.mode)}, {name, std::move(value)}});
@@ -377,7 +377,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
                             });
     const VerdictLines reserved = part.mode == ChainMode::Reach
                                       ? VerdictLines{.verdict = 1, .notes = 3, .paragraphs = 2}
-                                      // the status in two lines, what ran
+                                      // the status in two lines, and what ran
                                       : VerdictLines{.verdict = 1, .notes = 2};
     show_verdict(chain_verdict(part), palette, emit, reserved, [&part, &emit] {
         if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
@@ -424,7 +424,8 @@ void option_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     const ReachSettings& reach = part.reach;
     for (const Field& field : fields<ReachSettings>()) {
         const std::string_view name = field.name;
-        if (name == "solver" || name.starts_with("pole")) continue;  // in a row of its own; below its switch
+        if (name == "solver" || name.starts_with("pole"))
+            continue;  // has its own row, or is below its switch
         std::optional<double> otherwise;
         if (name == "tolerance") otherwise = reach_tolerance(reach, part.chain.reach());
         if (name == "restarts") otherwise = default_restarts;

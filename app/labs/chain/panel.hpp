@@ -62,7 +62,7 @@ std::string status_text(const ChainPart& part);
 /// bends, so that adding it rotates nothing. Above a straight chain.
 glm::vec3 first_pole(const ChainPart& part);
 
-/// Whether all joints lie on the line from the root to the target.
+/// True if all joints lie on the line from the root to the target.
 bool in_line_with_target(const ChainPart& part);
 
 /// The remedy for a solve that ended short of a target within reach, if there is one.

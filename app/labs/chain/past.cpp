@@ -1,5 +1,5 @@
-// What the past of the Chain lab shows: a joint's swing or twist, or the distance from tip to target; poses;
-// incidents and their causes. It can be saved as a trace.
+// The past of the Chain lab: a joint's swing or twist, or the distance from tip to target; poses; incidents
+// and their causes. It can be saved as a trace.
 #include "app/labs/kit/past.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ double swing_of(const ChainPart& part, std::size_t joint) {
     return glm::degrees(ik::angle_between(parent, bone));
 }
 
-/// Degrees about the bone. Known only along a curve and with limits: else the solver keeps no rotations.
+/// Degrees about the bone. Known only along a curve and with limits; otherwise the solver keeps no rotations.
 double twist_of(const ChainPart& part, std::size_t joint) {
     const auto& rotations = part.reach.state.rotations;
     const bool kept = part.mode == ChainMode::Curve || !part.reach.limits.empty();
@@ -57,7 +57,7 @@ PastCurve error_curve(const Workspace& workspace) {
             }};
 }
 
-/// Of the selected joint, or of joint 1: an arm's elbow.
+/// Plots the selected joint, or joint 1: an arm's elbow.
 PastCurve joint_curve(const Workspace& workspace, const char* what, const char* missing,
                       double (*value)(const ChainPart&, std::size_t)) {
     const std::size_t joint = chain_part(workspace).selection.active().value_or(1);
@@ -66,7 +66,7 @@ PastCurve joint_curve(const Workspace& workspace, const char* what, const char* 
             }};
 }
 
-/// The same number of joints, with bones of the same lengths, but for the rounding of an engine's log.
+/// The same number of joints, and bones of the same lengths within an engine log's rounding.
 bool same_joints(const Part& then, const Part& now) {
     const auto a = own_chain(part_as<ChainPart>(then)).segments(),
                b = own_chain(part_as<ChainPart>(now)).segments();
@@ -85,11 +85,11 @@ PoseLines lines_of(const Workspace&, const SharedPart& part) {
     return lines;
 }
 
-/// Which end of its range each angle of a joint is at: -1, 0 (between), 1.
+/// The end of its range that each angle of a joint is at: -1, 0 (between), 1.
 using Sides = std::array<int, 3>;
 
 int side_of(float angle, float low, float high) {
-    constexpr float at = 0.035f;  // radians: within two degrees of the end counts as at it
+    constexpr float at = 0.035f;  // radians: two degrees from the end count as at it
     if (high - low <= 2.0f * at) return 0;
     return angle <= low + at ? -1 : angle >= high - at ? 1 : 0;
 }
@@ -106,7 +106,7 @@ Sides sides_of(const ChainPart& part, std::size_t bone) {
             side_of(angles.twist, limit.twist_min, limit.twist_max)};
 }
 
-/// Whether an angle went from one end of its range to the other.
+/// True if an angle went from one end of its range to the other.
 bool limit_switched(const ChainPart& before, const ChainPart& after) {
     for (std::size_t bone = 0; bone < after.reach.limits.size(); ++bone) {
         const Sides was = sides_of(before, bone), is = sides_of(after, bone);
@@ -123,7 +123,7 @@ ik::ReachPose reach_pose(const ChainPart& part) {
     return pose;
 }
 
-/// Why a chain flipped: what the poses show, or else what the solver did.
+/// Why a chain flipped: by what the poses show or, failing that, by what the solver did.
 struct FlipReason {
     std::string cause;
     FlipAdvice advice;
@@ -166,7 +166,7 @@ std::string status_cause(const ChainPart& part) {
     return verdict.substr(0, verdict.find(':')) + ": " + status_text(part);
 }
 
-/// Whether only target and pole target differ: the same chain, with the same settings.
+/// True if only target and pole target differ: the same chain, with the same settings.
 bool comparable(const ChainPart& before, const ChainPart& after) {
     const Chain &a = before.chain, &b = after.chain;
     if (before.mode != ChainMode::Reach || after.mode != ChainMode::Reach) return false;
@@ -193,9 +193,9 @@ std::vector<Incident> jumps(const ChainPart& before, const ChainPart& after) {
 
 /// The incidents between two states of a chain, one solve apart. A flip: only the target or pole target
 /// moved, and little (FlipRule), but a bone turned by more than the rule allows. Also changes in the solver's
-/// report. Nothing outside mode Reach, and nothing while a study is open, since its solves start elsewhere.
+/// report. None outside mode Reach, nor while a study is open, since its solves start elsewhere.
 ///
-/// A flip's joint is an end of the bone that turned the furthest, whichever moved further: an arm's elbow.
+/// A flip's joint is whichever end of the bone that turned furthest moved further: an arm's elbow.
 std::vector<Incident> incidents_of(const Workspace&, const Part& was, const Part& is) {
     const auto &before = part_as<ChainPart>(was), &after = part_as<ChainPart>(is);
     if (after.mode == ChainMode::Curve) return jumps(before, after);
@@ -226,7 +226,7 @@ std::vector<Incident> incidents_of(const Workspace&, const Part& was, const Part
     return incidents;
 }
 
-/// The strip's moments as a trace, for as long as the chain has had as many joints as now.
+/// The strip's moments as a trace, from the moment when the chain got its present number of joints.
 std::string trace_of_strip(const Workspace& workspace) {
     const ChainPart& now = chain_part(workspace);
     if (now.chain.size() < 2) throw Refused("the chain has no bone");

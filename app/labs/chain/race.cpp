@@ -52,8 +52,8 @@ namespace {
 constexpr int timings = 5;
 
 /// Records the pose and the residual after each iteration, and whether the best pose was restored at the end.
-/// Iteration 0 is the common start, not what a solver makes of it before its first iteration: FABRIK,
-/// accelerated, bends a straight chain there.
+/// Iteration 0 is the common start, before any solver prepares it: FABRIK, accelerated, bends a straight
+/// chain first.
 class Watch final : public ik::Observer {
   public:
     Watch(Racer& racer, const std::vector<glm::vec3>& start, float residual) : racer_(racer), joints_(start) {
@@ -65,9 +65,9 @@ class Watch final : public ik::Observer {
     }
     void iteration_done(int iteration, float residual) noexcept override {
         if (iteration > 0) add(joints_, residual);
-        racer_.restored = false;  // the solver went on from the restored pose
+        racer_.restored = false;  // the solver continued from the restored pose
     }
-    /// A chain that only had to be stretched towards its target has moved without an iteration.
+    /// A chain that was only stretched towards its target has moved without an iteration.
     void finish() {
         if (racer_.residuals.size() == 1 && !std::ranges::equal(racer_.joints, racer_.poses.at(0)))
             add(racer_.joints, racer_.report.residual);
@@ -111,8 +111,8 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
 }
 
 /// One row for each iteration of each solver: solver, iteration, tip_to_target_m, root_to_target_m,
-/// microseconds; the last row of a solver adds status, ran (see ran_text) and restored_m: of the best pose if
-/// that was restored.
+/// microseconds; a solver's last row adds status, ran (see ran_text) and, if the best pose was restored, its
+/// restored_m.
 std::string race_csv(const Race& race) {
     const auto metres = [](float value) {
         char text[32];
@@ -144,7 +144,7 @@ std::string open_race_csv(const Workspace& workspace) {
 }
 
 constexpr double frames_per_second = 30.0;
-constexpr int end_frames = 30;  ///< the end is held for a second, so that a film takes 4 to 12 s
+constexpr int end_frames = 30;  ///< the end is held for a second, so a film lasts 4 to 12 s
 constexpr double max_frames = 18'000.0;
 
 /// Shows a frame of the film in a copy of the workspace.

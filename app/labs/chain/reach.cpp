@@ -83,7 +83,7 @@ ik::State& state_for(ReachSettings& settings, std::size_t bones) {
     return settings.state;
 }
 
-/// Clears invalid memory, so that equal states are bit-identical, also after saving and loading.
+/// Clears memory that is not valid, so that equal states are bit-identical, also after saving and loading.
 static void forget_what_is_not_valid(ik::State& state) {
     if (!state.limits.valid) state.limits = {};
     if (state.pole.valid) return;
@@ -299,7 +299,7 @@ const char* bound_phrase(ik::Bound bound) {
     return phrases[static_cast<std::size_t>(bound)];
 }
 
-/// Whole degrees, or tenths if limit and need would otherwise read the same.
+/// Whole degrees; tenths if the limit and the needed angle would otherwise read the same.
 std::string degrees_text(const ik::ActiveLimit& limit, float angle) {
     const auto whole = [](float radians) { return std::lround(glm::degrees(radians)); };
     char text[32];

@@ -43,10 +43,10 @@ struct ChainPlane {
 struct ReachSettings {
     ik::Method method = ik::Method::Fabrik;
     ik::Options options{};            ///< without plane and limits, which solver_options() adds
-    std::optional<ChainPlane> plane;  ///< in every mode; `limits` are then empty, since it has its own
+    std::optional<ChainPlane> plane;  ///< in every mode; `limits` are then empty, since a plane has its own
     std::vector<ik::Limit> limits;    ///< one per bone, at the joint that it starts from; or empty
     /// The solver's state between solves; no bones before the first solve. Its rotations are maintained only
-    /// with limits, which need them.
+    /// if there are limits.
     ik::State state;
 
     bool operator==(const ReachSettings& other) const;
@@ -66,11 +66,11 @@ std::vector<glm::vec3> positions(const Chain& chain);
 std::vector<glm::vec3> from_root(const std::vector<glm::vec3>& joints);
 /// The shortest rotation from one unit vector to another.
 glm::quat least_rotation(glm::vec3 from, glm::vec3 to);
-/// Each bone's rotation from rest at `joints`: `rotations` (as the last solve left them, or empty) followed
-/// by the shortest rotation onto the bone's present direction. `rest`: the direction of all bones at rest.
+/// Each bone's rotation from rest at `joints`: `rotations` (from the last solve, or empty) followed by the
+/// shortest rotation onto the bone's present direction. `rest`: the direction of all bones at rest.
 std::vector<glm::quat> rotations_at(const std::vector<glm::vec3>& joints, std::vector<glm::quat> rotations,
                                     glm::vec3 rest);
-/// Whether the method accepts this chain: two_bone needs exactly two bones.
+/// True if the method accepts this chain: two_bone needs exactly two bones.
 bool takes(ik::Method method, const Chain& chain);
 inline constexpr const char* needs_two_bones = "needs exactly two bones";
 /// "Two-bone needs exactly two bones; this chain has 7."
@@ -101,7 +101,7 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
 void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now);
 /// Removes all limits, the plane's too.
 void forget_limits(ReachSettings& settings);
-/// Whether joints have limits, in a plane or without one.
+/// True if joints have limits, with or without a plane.
 bool is_limited(const ReachSettings& settings);
 /// The limit of a bone in the plane; unlimited if none is set.
 ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint);
@@ -113,8 +113,8 @@ float off_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 poi
 void keep_in_plane(Chain& chain, const ReachSettings& settings, ChainRuntime& runtime);
 /// The limit of a joint; free if none is set.
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
-/// A limit of that kind, with usual angles, widened to hold the joint's current pose, except for a hinge's
-/// twist and swings near half a turn. A new hinge takes the axis and the direction of the joint's current
+/// A limit of that kind, with usual angles, widened to include the joint's current pose, except for a hinge's
+/// twist and swings near half a turn. A new hinge uses the axis and the direction of the joint's current
 /// bend.
 ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, const Chain& chain,
                             std::size_t joint, std::optional<glm::vec3> axis);

@@ -33,7 +33,7 @@ void check_size(const ChainPart& part) {
     }
 }
 
-/// Drops the result and the study, which belong to the old chain.
+/// Drops the result and the study of the old chain.
 void shape_changed(ChainPart& part) {
     part.result.reset();
     part.study.close();
@@ -83,7 +83,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     require_ok(part.chain.remove(index));
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
-    // If only this joint was selected, select the next one, so that the user can keep deleting.
+    // If only this joint was selected, selects the next one, so that the user can keep deleting.
     const bool alone = part.selection.active() == index && !part.selection.several();
     part.selection.removed(index);
     if (part.index > index) --part.index;
@@ -96,7 +96,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     part.index = std::min(part.index, last);
 }
 
-/// Removes all at once: one by one, each removal would move the joints behind it.
+/// Removes all at once; one by one, each removal would move the joints after it.
 void remove_all(ChainPart& part, const std::vector<std::size_t>& joints) {
     const auto gone = [&](std::size_t i) { return std::binary_search(joints.begin(), joints.end(), i); };
     std::vector<Segment> left;
@@ -199,8 +199,8 @@ void add_shape_commands(CommandTable& table) {
         take_preset));
 }
 
-// Text from the clipboard: a trace, or points: the new position of a joint, the target or the pole target, or
-// a new chain.
+// Pasted text: a trace, or points (the new position of a joint, the target or the pole target, or a new
+// chain).
 
 Chain chain_through(const std::vector<glm::vec3>& points) {
     std::vector<Segment> segments;
@@ -250,7 +250,7 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
     return told + ") m";
 }
 
-/// Whether pasted text is a trace: two frames or more, or a pose with a target.
+/// True if pasted text is a trace: two frames or more, or a pose with a target.
 bool holds_trace(const std::string& text) {
     try {
         std::istringstream in(text);

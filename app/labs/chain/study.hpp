@@ -28,11 +28,11 @@ class ChainRuntime;
 /// Which solvers take part, indexed by ik::Method.
 using Racers = std::array<bool, ik::all_methods.size()>;
 
-/// Poses after iterations 0, 1, 2, ... of a solve, in bounded memory: once they fill it, every second one is
+/// Poses after iterations 0, 1, 2, ... of a solve, in bounded memory: when it is full, every second pose is
 /// dropped and from then on only every second is kept; then every fourth, and so on.
 class KeptPoses {
   public:
-    /// Positions, 3 MiB of them: all iterations of a chain of up to 26 joints, at least 256 of one of 512.
+    /// Positions, 3 MiB in all: every iteration of up to 26 joints, at least 256 iterations of 512 joints.
     static constexpr std::size_t default_most = 1u << 18;
 
     explicit KeptPoses(std::size_t most = default_most) : most_(most) {}
@@ -48,8 +48,8 @@ class KeptPoses {
 
   private:
     std::vector<glm::vec3> joints_;
-    std::size_t most_, size_ = 0;         ///< joints in all, and in each pose
-    std::size_t added_ = 0, stride_ = 1;  ///< iterations so far, and from one that is kept to the next
+    std::size_t most_, size_ = 0;         ///< joints in all, and per pose
+    std::size_t added_ = 0, stride_ = 1;  ///< iterations so far, and from one kept pose to the next
 };
 
 struct Racer {
@@ -59,7 +59,7 @@ struct Racer {
     KeptPoses poses;                ///< after each iteration; 0 is the prepared start
     /// Metres, before the first iteration and after each; never empty. The last is the final one.
     std::vector<float> residuals;
-    /// Whether the solver finally restored an earlier, better pose; the report's residual is that pose's.
+    /// True if the solver finally restored an earlier, better pose; the report's residual is that pose's.
     bool restored = false;
     /// Time of the whole solve, the fastest of several runs. It varies from run to run, so it must not appear
     /// in --state or in compared pictures.
@@ -68,10 +68,10 @@ struct Racer {
     int iterations() const { return static_cast<int>(residuals.size()) - 1; }
 };
 
-/// A racer as it stood after an iteration of the race. One that has finished stays at its end.
+/// A racer after an iteration of the race. Once finished, it stays at its end.
 struct RacerAt {
     bool finished = false;
-    int iteration = 0;                  ///< its own; in a long solve of a long chain the last kept one
+    int iteration = 0;                  ///< its own; in a long solve of a long chain, the last kept one
     std::span<const glm::vec3> joints;  ///< of the racer, or of its kept poses
     float error = 0.0f;                 ///< metres from the tip to the target
 };
@@ -90,13 +90,13 @@ Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 targe
 
 /// "iteration 3", or "finished after 4"; "error 48.5 mm".
 std::string progress_text(const RacerAt& at);
-/// The same; of one that ended short of the target, with the reason: "stopped after 12, out of reach".
+/// The same; if it ended short of the target, with the reason: "stopped after 12, out of reach".
 std::string outcome_text(const Racer& racer, const RacerAt& at);
 std::string error_reading(const RacerAt& at);
 /// "48.5 mm from the target"; with its status once it has finished: "Stalled, 310 mm from the target".
 std::string error_text(const Racer& racer, const RacerAt& at);
-/// The end of a racer: "Stalled, 310 mm from the target", or after it what ran besides the solver in the row
-/// above: "Out of reach, 310 mm; solved in closed form".
+/// The end of a racer: "Stalled, 310 mm from the target"; or, if something besides the solver named above
+/// ran, with that at the end: "Out of reach, 310 mm; solved in closed form".
 std::string end_text(const Racer& racer);
 
 // The trace of one solve: every elementary step that an observer saw, and the pose after each.
@@ -133,7 +133,7 @@ Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainR
 std::string describe_frame(const Trace& trace, std::size_t frame);
 
 inline constexpr float slowest_pace = 0.1f, default_pace = 8.0f, fastest_pace = 600.0f;  ///< steps per second
-/// Iterations per second: 4, or so many that the whole race takes 3 to 11 s.
+/// Iterations per second: 4, or as many as make the whole race last 3 to 11 s.
 float race_pace(std::size_t iterations);
 /// Duration of race.record's film at that pace; the end is held for a second.
 inline double race_film_seconds(std::size_t iterations) {

@@ -77,7 +77,7 @@ void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 long end_of_iteration(const Trace& trace, std::size_t step, int by) {
     int iteration = trace.iteration(step);
     const bool within = step < trace.end_of_iteration(iteration);
-    if (within && by > 0) --iteration;  // the next end is this iteration's
+    if (within && by > 0) --iteration;  // this iteration's end comes next
     return static_cast<long>(trace.end_of_iteration(iteration + by));
 }
 
@@ -241,7 +241,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     const RacerAt at = racer_at(*racer, shown.step());
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
-    // One line in every iteration and for every target, so that no row moves.
+    // Always one line, so that no row moves.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
 }
 
@@ -345,13 +345,13 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
         emit("study.step", {{"iterations", 1}});
     end_row();
-    // Below the buttons, because these texts vary in length from step to step.
+    // Below the buttons, because these texts change length from step to step.
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(ran_text(trace.method, trace.report) + ".");
     const float from = ImGui::GetCursorPosY();
     note(describe_frame(trace, step));
-    // Two lines for a shorter text too, so that the plot stays put from step to step.
+    // Space for two lines even if the text is shorter, so that the plot does not move from step to step.
     const float below = from + 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
     ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), below));
     if (part.motion.path != Motion::Path::Still)

@@ -66,7 +66,7 @@ class HumanoidProgram {
   private:
     void line(const std::string& text) { (code_ += text) += '\n'; }
     void say(const std::string& text) { line(text.empty() ? text : "    " + text); }
-    /// Writes `opening`, the entries separated by commas, and `closing`, with as many on a line as fit.
+    /// Writes `opening`, the entries separated by commas, and `closing`, filling each line.
     void list(const std::string& opening, const std::vector<std::string>& entries,
               const std::string& closing) {
         std::string row = "    " + opening;

@@ -1,5 +1,4 @@
-// Drawing of the Humanoid lab: the character's bones, nodes and targets, and behind them the pose before
-// anything modified it.
+// Drawing of the Humanoid lab: the character's bones, nodes and targets, and behind them the unmodified pose.
 #include "app/labs/humanoid/draw.hpp"
 
 #include <algorithm>
@@ -71,7 +70,7 @@ class Drawing {
         if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
         return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
     }
-    /// Whether the joint's limit stops its bone.
+    /// True if the joint's limit stops its bone.
     bool at_limit(std::size_t i) const {
         const auto bone = part_.bone_of(i);
         return bone && shown_.body && shown_.body->at_limit[static_cast<std::size_t>(*bone)];
@@ -85,7 +84,7 @@ class Drawing {
         return body_[i] ? view_.palette.joint : view_.palette.neutral;
     }
 
-    /// The bones from a node to its children, which move when it turns. A rig's root and controls have none.
+    /// The bones from a node to its children, which turn with it. A rig's root and controls have none.
     void bones_from(std::size_t i) {
         const auto hips = part_.node_of(humanoid::Bone::Hips);
         if (!body_[i] && !springs_[i] && hips && !part_.skeleton().is_below(i, *hips)) return;
@@ -155,7 +154,7 @@ class Drawing {
         if (marks) ball.layer = Layer::Overlay;
     }
 
-    /// Outlines of the volumes that hands are kept out of, and those of selected springs.
+    /// Outlines of the volumes that hands avoid, and of the colliders of selected springs.
     void volumes() {
         Solvers& solvers = humanoid_runtime(view_.workspace).solvers;
         for (const humanoid::BodyCapsule& each : solvers.capsules(part_)) {
@@ -205,7 +204,7 @@ class Drawing {
         if (playback.clip) draw.morph_weights = morph_weights(skin, *playback.clip, playback.time);
     }
 
-    /// A draggable ball at the target, or else at the bone. A line shows a target that is not reached.
+    /// A draggable ball at the target or, without one, at the bone. A line shows a target out of reach.
     void effector(humanoid::Effector which) {
         const PickId pick = effector_pick(which);
         const bool marks = view_.dragged == pick || view_.hovered == pick;
@@ -224,7 +223,7 @@ class Drawing {
             list_.line(bone, at, px(1.6f), glm::vec4(view_.palette.limit, 1.0f)).layer = Layer::Overlay;
     }
 
-    /// What the head looks at, with a thin line to the head.
+    /// The look-at target, with a thin line to the head.
     void gaze() {
         const auto at = glm::vec3(part_.ik.look_at.options.target);
         const glm::vec3 head = shown_.point(*part_.node_of(humanoid::Bone::Head));
@@ -239,8 +238,8 @@ class Drawing {
             {.at = at, .clearance = px(14.0f), .text = "look-at", .colour = view_.palette.text, .rank = 3});
     }
 
-    /// Where planted soles touch the ground. A foot that hangs over the edge of a step, or rolls onto its
-    /// toes, is marked only where it stands.
+    /// Where planted soles touch the ground. A foot over the edge of a step, or rolling onto its toes, is
+    /// marked only where it stands.
     void soles() {
         if (!shown_.feet || !view_.handles) return;
         const humanoid::Ground& ground = humanoid_runtime(view_.workspace).solvers.ground(part_);
@@ -276,7 +275,7 @@ class Drawing {
         if (!any) dot(above(0) < above(parts) ? 0 : parts);
     }
 
-    /// What the feet support, and a plumb line from the centre of mass to the ground.
+    /// The area that supports the body, and a plumb line from the centre of mass to the ground.
     void balance() {
         if (!shown_.balance || shown_.balance->support.count == 0) return;
         const humanoid::Support& support = shown_.balance->support;
@@ -296,7 +295,7 @@ class Drawing {
 
     void ghost() {
         const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
-        // Fixes move joints less than bones are thick.
+        // Fixes move joints by less than a bone's thickness.
         const Layer layer = part_.shows_fixes() ? Layer::Overlay : Layer::Scene;
         const auto at = [&](std::size_t i) { return glm::vec3(shown_.ghost[i].position); };
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {

@@ -29,7 +29,7 @@ std::vector<bool> body_nodes(const HumanoidPart& part);
 /// For each node, whether a spring turns it.
 std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers);
 
-/// Where to draw the end of a bone without a child, in the node's space.
+/// Where to draw the end of a bone without children, in the node's space.
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);
 
 /// Colour of the centre of mass: a warning outside the feet, unless a foot is stepping to catch it.
@@ -47,15 +47,15 @@ void draw_attachments(const View& view, DrawList& list, const Attachments& attac
 glm::vec3 adult_colour(const Palette& palette);
 glm::vec3 clips_colour(const Palette& palette);
 
-/// As set in the view: the active joint in full; other selected joints as outlines with their current
-/// rotation; all other joints as outlines. Joints stopped by limits show only those limits.
+/// Depends on the view's setting. The active joint is drawn in full, other selected joints as outlines with
+/// their current rotation, all other joints as outlines. Joints stopped by limits show only those limits.
 void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
 /// Legend of the limit colours; empty if none are drawn.
 std::vector<LegendRow> limits_legend(const Workspace& workspace);
 
-/// Frees the cached poses once nothing of the past is on display.
+/// Frees the cached poses once nothing of the past is shown.
 void forget_past_poses(const Workspace& workspace);
-/// Draws the body as before the displayed incident, over the current one.
+/// Draws the body before the displayed incident over the current one.
 void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list);
 
 }  // namespace tendril::app

@@ -12,7 +12,7 @@ class Solvers;
 
 /// The node of that name; throws std::invalid_argument if there is none.
 std::size_t node_named(const HumanoidPart& part, const std::string& name);
-/// The nodes given by "node" or "nodes", in the given order. Throws Refused, or as node_named() does.
+/// The nodes given by "node" or "nodes", in that order. Throws Refused, or as node_named() does.
 std::vector<std::size_t> nodes_named(const HumanoidPart& part, const Arguments& given);
 
 /// Choices for an argument.
@@ -25,10 +25,10 @@ Argument clip_argument(const char* name, const char* help);
 /// If a file is being read, waits for it and shows its character. Throws Refused.
 void finish_loading(Workspace& workspace);
 
-/// Wraps a command so that in a window it keeps the bone map that it corrected.
+/// Wraps a command so that a window keeps the bone map that it corrected.
 Command keeping(Command command);
 
-/// Wraps a command so that the camera follows the character to where a clip begins, as it does in playback.
+/// Wraps a command so that the camera follows the character to a clip's start, as in playback.
 Command followed(Command command);
 
 /// "sign_flip"
@@ -40,7 +40,7 @@ struct IkNow {
     Solvers& solvers;
 };
 
-/// Changes the part, then solves so that IK remembers the resulting state.
+/// Changes the part, then solves so that the resulting state of IK is stored.
 Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                    void (*change)(const IkNow&, HumanoidPart&, const Arguments&));
 
@@ -50,8 +50,8 @@ glm::dvec3 exact_point(const Json& json);
 void require_body(const IkNow& now, const HumanoidPart& part);
 
 /// A complete program: skeleton, bone map and the current pose as data, then feet, targets, gaze, hands and
-/// springs with their settings, in the lab's order. It prints every node's position, equal to the lab's. Left
-/// out: attachments, the fading after a target is released, and the triangles of a ground mesh.
+/// springs with their settings, in the lab's order. It prints every node's position, equal to the lab's.
+/// Leaves out attachments, the fading after a target is released, and the triangles of a ground mesh.
 std::string humanoid_code(const HumanoidPart& part, Solvers& solvers);
 
 void add_character_commands(CommandTable& table);

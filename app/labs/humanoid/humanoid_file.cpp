@@ -1,5 +1,5 @@
-// The Humanoid lab in a scene file: the character's file name and all that the user has set. Loading reads
-// the character's file again.
+// The Humanoid lab in a scene file: the character's file name and the user's settings. Loading reads the
+// character's file again.
 #include <optional>
 
 #include "app/document/json_complete.hpp"
@@ -44,7 +44,7 @@ Json reading_json(const Reading& reading, const humanoid::Skeleton& skeleton) {
             {"limits", limits_from.name(reading.limits)}};
 }
 
-/// Settings missing from the file keep their values in `reading`.
+/// Settings missing from the file stay as in `reading`.
 Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
     if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
     if (const auto space = place.optional("space")) load_known_fields(*space, reading.space);
@@ -77,7 +77,7 @@ Json save_playback(const HumanoidPart& part) {
     return json;
 }
 
-/// Clip names may be ambiguous: the stored index decides, if the clip there still has the name.
+/// Clip names may repeat: use the stored index if the clip there still has the name.
 std::size_t read_clip(const JsonPlace& place, const LoadedCharacter& character) {
     const std::string name = place["name"].text();
     const std::vector<humanoid::Clip>& clips = character.clips();
@@ -93,7 +93,7 @@ std::size_t read_clip(const JsonPlace& place, const LoadedCharacter& character) 
 Playback read_playback(const JsonPlace& place, const LoadedCharacter& character) {
     Playback playback;
     if (place.has("name")) playback.clip = read_clip(place, character);
-    load_known_fields(place, playback, {"name", "index", "carry_targets"});  // the last: older files
+    load_known_fields(place, playback, {"name", "index", "carry_targets"});  // carry_targets: in older files
     if (!playback.clip)
         playback.time = 0.0, playback.rounds = 0;
     else if (const auto time = place.optional("time"))
@@ -161,7 +161,7 @@ void read_edit(const JsonPlace& place, HumanoidPart& part) {
     }
 }
 
-/// Makes the edits again, each with the character's settings at that time. Older scenes have "motions" and
+/// Repeats the edits, each with the character's settings at that time. Older scenes have "motions" and
 /// "cures" in that order, without settings: these use the scene's, with the default limits.
 void read_edits(const JsonPlace& place, HumanoidPart& part) {
     constexpr std::size_t max_edits = 10'000;

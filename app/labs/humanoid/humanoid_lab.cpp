@@ -84,7 +84,7 @@ std::vector<FileKind> HumanoidLab::files() const {
             {"bone maps", {".json"}, "humanoid.map.load", {}, begins_map}};
 }
 
-/// Up the stairs, in a cape. It goes on when the user takes over: no setting is in its way.
+/// Up the stairs, in a cape. Continues when the user takes over: it does not get in the way.
 std::vector<CommandCall> HumanoidLab::opening() const {
     return {{"humanoid.view", {{"skin", "solid"}, {"ghost", false}}},
             {"humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}, {"name", "cape"}}},

@@ -58,7 +58,7 @@ class HumanoidLab final : public Lab {
     std::vector<CommandCall> opening() const override;
 };
 
-/// Bones drawn tapered, or as lines and spheres; nodes that are not bones: shown or hidden.
+/// Bones tapered, or as lines and spheres; nodes that are not bones shown or hidden.
 LabSetting bones_setting();
 LabSetting helpers_setting();
 

@@ -75,9 +75,9 @@ std::size_t bytes_of(const SkinnedMesh& mesh) {
     return mesh.positions.size() * a_vertex + mesh.indices.size() * sizeof(mesh.indices[0]) + pixels;
 }
 
-/// Each retarget, fix or change of unit makes a character of its own, with all clips. They share meshes.
+/// Each retarget, fix or change of unit makes its own character with all clips. They share meshes.
 std::size_t bytes_of(const LoadedCharacter& loaded) {
-    constexpr std::size_t a_node = 400;  // with its name, placement and bone
+    constexpr std::size_t a_node = 400;  // including its name, placement and bone
     std::size_t bytes = loaded.skeleton().size() * a_node;
     const auto add = [&](const humanoid::Clip& clip) {
         for (const humanoid::Channel& channel : clip.channels)

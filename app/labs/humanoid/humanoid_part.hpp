@@ -29,7 +29,7 @@ namespace tendril::app {
 //
 // A looping clip continues where the previous round ended: each round moves the hips on the ground and turns
 // them about the vertical by the difference between the clip's first and last moment. Played in place, the
-// hips stay above their starting point. A clip that was recorded in place can be made to travel.
+// hips stay above their starting point. A clip recorded in place can be made to travel.
 
 inline constexpr double fastest_clip = 10.0, longest_playback = 1e6;  ///< seconds
 inline constexpr std::int64_t max_rounds = 1'000'000;
@@ -50,31 +50,31 @@ struct Playback {
     bool operator==(const Playback&) const = default;
 };
 
-/// Whether a tick changes anything.
+/// True if a tick changes anything.
 bool goes_on(const Playback& playback, const LoadedCharacter& character);
 /// Advances by `seconds`; a clip that does not loop stops at its end.
 void advance(Playback& playback, const LoadedCharacter& character, double seconds);
-/// Goes to `seconds` after the start of the first round. Beyond the duration, a looping clip is in a later
-/// round, and another one at its end.
+/// Goes to `seconds` after the start of the first round. Beyond the clip's duration, a looping clip is in a
+/// later round; any other is at its end.
 void go_to(Playback& playback, const LoadedCharacter& character, double seconds);
 
 /// The clip's local pose at that moment, before anything modifies it. `hips`: the node whose motion carries
-/// over from round to round; without it each round restarts at the same position. `unfixed`: before the clip
-/// was fixed.
+/// over from round to round; without it each round restarts at the same position. `unfixed`: use the clip
+/// before its fixes.
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips, bool unfixed = false);
 
-/// How fast a clip that walks in place should travel for its standing feet to stay where they are, m/s; 0 for
-/// one that travels, or stands.
+/// The speed at which a clip that walks in place keeps its standing feet fixed on the ground, m/s; 0 if it
+/// travels already, or stands.
 glm::dvec3 pace_of(const HumanoidPart& part, std::size_t clip);
 /// Call after a change of clip, bone map or Playback::travel.
 void measure_pace(HumanoidPart& part);
 
-/// Moves the targets along with the clip since `before`: each at the round's average velocity, turning with
-/// it, so that the clip meets them alike in every round.
+/// Moves the targets with the clip since `before`: at the round's average velocity, turning with it, so that
+/// the clip meets them in the same way in every round.
 void carry_targets(HumanoidPart& part, const Playback& before);
 
-/// Whether the strip of the clip has marks of Motion lint.
+/// True if the strip shows Motion lint's marks on the clip.
 bool shows_lint_marks(const Workspace& workspace);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed; with
@@ -85,11 +85,11 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
 /// Clips of other files, played on this character (humanoid::retarget). The result is a clip like its own.
 struct PlayedMotion {
     SharedCharacter loaded;  ///< the part's character, with the new clip last
-    std::string text;        ///< for the user: the clip's name, and what was not retargeted
+    std::string text;        ///< for the user: the clip's name, and which parts were not retargeted
 };
 
-/// Retargets the clip of that name (empty: the first one) of another character, with the fixes made on it.
-/// Throws std::runtime_error that begins with the name of its file.
+/// Retargets the clip of that name (empty: the first one) of another character, with its fixes. Throws
+/// std::runtime_error that begins with the name of its file.
 PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, const std::string& clip);
 /// Chooses the last clip, and plays it.
 void play_last_clip(HumanoidPart& part);
@@ -113,13 +113,13 @@ enum class Skinning : std::uint8_t { Linear, TwistSpread };
 inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
                                                   {{"linear", "linear"}, {"twist_spread", "twist spread"}}};
 
-/// Which joints show their limits. Joints that their limits stop show them too, except with None.
+/// Which joints show their limits. Joints stopped by their limits always show them, except with None.
 enum class LimitsShown : std::uint8_t { None, Selected, All };
 
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
     "limits", {{"none", "no joint"}, {"selected", "selected joints"}, {"all", "all joints"}}};
 
-/// What Motion lint judges: the clip as read, or the result that is shown and exported.
+/// The object of Motion lint: the clip as read, or the result that is shown and exported.
 enum class JudgedClip : std::uint8_t { Clip, Result };
 
 inline constexpr EnumNames<JudgedClip, 2> judged_clips{"judged",
@@ -148,21 +148,21 @@ struct HumanoidPart final : Part {
     std::vector<BoneCurve> curves;
     IkState ik_state;
     Attachments attachments;
-    int quiet_ticks = 0;  ///< ticks since the last edit or movement; after enough of them the lab rests
+    int quiet_ticks = 0;  ///< ticks since the last edit or movement; at some number of them the lab rests
     Selection selection;  ///< of nodes
     HumanoidView view;
     FlipRule flips;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
-    /// Null if none is chosen.
+    /// Null if no clip is chosen.
     const humanoid::Clip* clip() const { return playback.clip ? &loaded->clips()[*playback.clip] : nullptr; }
     bool shows_fixes() const { return clip() != nullptr && loaded->unfixed.contains(clip()->name); }
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
-    /// A node's name for the user: its bone's name, else its own.
+    /// A node's name for the user: its bone's name or, without a bone, its own.
     std::string called(std::size_t node) const;
     std::string titled(std::size_t node) const;  ///< "LeftLeg (LeftLowerLeg)"
-    std::vector<std::string> unmapped() const;   ///< bones
+    std::vector<std::string> unmapped() const;   ///< names of bones
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
     Json save() const override;
@@ -208,7 +208,7 @@ std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app:
 
 namespace tendril::app {
 
-/// Names of the bones for whose index `is` holds.
+/// Names of the bones whose index satisfies `is`.
 std::vector<std::string> bone_names(auto is) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
@@ -220,12 +220,12 @@ std::vector<std::string> bone_names(auto is) {
 
 /// The selected names, in skeleton order.
 std::vector<std::string> names_of(const Selection& selection, const humanoid::Skeleton& skeleton);
-/// ". Left out: cape, rifle" after the message of an export of bones alone; empty if there is neither.
+/// ". Left out: cape, rifle", for the message of an export of bones alone; empty if nothing is left out.
 std::string left_out_text(const HumanoidPart& part, bool held);
 /// The active node's name; empty if nothing is selected.
 std::string active_name(const Selection& selection, const humanoid::Skeleton& skeleton);
 
-/// Selects the nodes of the same names; drops the others.
+/// Selects the nodes with the same names; drops the others.
 Selection selection_in(const humanoid::Skeleton& skeleton, const Selection& selection,
                        const humanoid::Skeleton& before);
 

@@ -29,13 +29,13 @@ class HumanoidRuntime final : public Runtime {
     struct Reviewed {
         std::shared_ptr<const Part> part;
         ShownPose shown;
-    } reviewed;  ///< the end of the last review, where the next one begins
+    } reviewed;  ///< the end of the last review, where the next begins
 
-    /// State of the interface only; nothing else depends on it.
+    /// State of the panels only; nothing else depends on it.
     struct Panel {
         std::optional<humanoid::Bone> bone;   ///< the row that waits for a node to be picked
         bool bones_first = false;             ///< shows the bone map before the other sections
-        SharedCharacter bones_of{};           ///< the character for which that was decided
+        SharedCharacter bones_of{};           ///< the character for which bones_first was decided
         int attach_kind = 0;                  ///< kind of attachment that Add makes
         std::string attach_to = "Hips";       ///< bone or node to attach it to
         bool past = false;                    ///< the strip shows the last ten seconds instead of the clip

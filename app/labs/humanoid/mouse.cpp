@@ -19,7 +19,7 @@ bool has_body(const Workspace& workspace) {
     return humanoid_runtime(workspace).solvers.body(humanoid_part(workspace)) != nullptr;
 }
 
-/// At the target, or at the bone if there is none.
+/// At the target or, without one, at the bone.
 Handle effector_handle(const Workspace& workspace, Effector effector) {
     const HumanoidPart& part = humanoid_part(workspace);
     const humanoid::Placement& bone =
@@ -41,7 +41,7 @@ std::optional<Effector> effector_at(const HumanoidPart& part, std::size_t node) 
     return std::nullopt;
 }
 
-/// The effector that shows the gizmo: that of the active node, or else of the last selected node with one.
+/// The effector with the gizmo: the active node's or, if it has none, that of the last node with one.
 std::optional<Effector> gizmo_effector(const HumanoidPart& part) {
     const auto active = part.selection.active();
     if (!active) return std::nullopt;
@@ -258,14 +258,14 @@ struct Box {
     void take(const glm::vec3& at) { low = glm::min(low, at), high = glm::max(high, at); }
 };
 
-/// How large the figure is at rest, metres.
+/// The figure's size at rest, metres.
 float size_of(const HumanoidPart& part) {
     const RestBounds& rest = part.loaded->bounds;
     return static_cast<float>(std::max(0.01, glm::distance(rest.low, rest.high)));
 }
 
-/// Around its nodes but those that a walk leaves behind, such as its root, and as far beyond them as its skin
-/// reaches at rest.
+/// Encloses its nodes, except those that a walk leaves behind, such as its root, with a margin as wide as its
+/// skin has at rest.
 Box figure_box(const HumanoidPart& part, const ShownPose& shown) {
     const LoadedCharacter& loaded = *part.loaded;
     const glm::vec3 hips = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
@@ -305,7 +305,7 @@ Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) cons
             box.take(each);
     if (part.ik.hold) box.take(glm::vec3(part.ik.hold->asked(shown.hips).position));
     for (const glm::vec3& each : part.attachments.world->positions()) box.take(each);
-    // A view that stays shows where a clip leads, too, unless that would make the figure tiny.
+    // A fixed view also shows where a clip leads, unless that would make the figure tiny.
     const auto hips = part.node_of(humanoid::Bone::Hips);
     if (hips && part.clip() != nullptr && !part.view.follow) {
         Playback end = part.playback;

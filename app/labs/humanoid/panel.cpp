@@ -46,7 +46,7 @@ void scale_row(const HumanoidPanel& panel) {
     explain("The length of one unit in the file. The character's height shows whether it is right.");
 }
 
-/// Warns of a height that no person has, with a button that fixes it.
+/// Warns of an implausible height, with a button that fixes it.
 void unit_rows(const HumanoidPanel& panel) {
     const auto doubt = panel.part.loaded->doubted_unit(*panel.part.map);
     if (panel.part.loaded->file.empty() || !doubt) return;
@@ -101,7 +101,7 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     for (const std::string& each : loaded.character.sentences()) note(each);
 }
 
-/// For a clip that walks in place.
+/// Rows for a clip that walks in place.
 void pace_rows(const HumanoidPanel& panel) {
     // Seconds. A walk in place is a cycle, and a long clip is slow to measure.
     constexpr double longest = 20.0;
@@ -176,7 +176,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     bool& incomplete = panel.runtime.panel.bones_first;
     SharedCharacter& decided = panel.runtime.panel.bones_of;
-    // While the mouse is in the panel its sections keep their order, unless the character changed.
+    // Sections keep their order while the mouse is in the panel, unless the character changed.
     if (row_search() == nullptr &&
         (decided != panel.part.loaded ||
          !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
@@ -186,7 +186,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
         if (decided && decided->path != panel.part.loaded->path) panel.runtime.panel.export_to.clear();
         decided = panel.part.loaded;
     }
-    if (incomplete) bone_rows(panel, true);  // nothing else works without
+    if (incomplete) bone_rows(panel, true);  // nothing else works without it
     character_rows(panel);
     clip_rows(panel);
     lint_rows(panel);
@@ -289,7 +289,7 @@ void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     show_verdict(humanoid_verdict(workspace), panel.colours, emit);
     const bool selected = !panel.part.selection.empty();
-    if (selected) node_inspector(panel);  // what was clicked comes first
+    if (selected) node_inspector(panel);  // the clicked item comes first
     limit_inspector(panel);
     target_inspector(panel);
     character_inspector(panel);
@@ -379,7 +379,7 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     }
 }
 
-/// A list of all nodes for the row that waits. Always present, so that nothing below it moves.
+/// A list of all nodes for the waiting row. Always present, so that nothing below it moves.
 void node_chooser(const HumanoidPanel& panel) {
     auto& waiting = panel.runtime.panel.bone;
     ImGui::BeginDisabled(!waiting);
@@ -411,7 +411,7 @@ void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
               2);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
     map_rows(panel);
-    // The note is below the rows, so that they keep still when it appears.
+    // The note is below the rows, so that they stay in place when it appears.
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
 }
@@ -425,7 +425,7 @@ void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& w
     if (node >= 0 && (part.selection.active() != static_cast<std::size_t>(node) || part.selection.several()))
         emit("humanoid.select", {{"node", name}});
     waiting.reset();
-    if (before >= 0 || node < 0) return;  // a correction: only that bone was meant
+    if (before >= 0 || node < 0) return;  // for a correction, only that bone was meant
     for (std::size_t i = 1; i < humanoid::bone_count && !waiting; ++i) {
         const auto next = static_cast<Bone>((static_cast<std::size_t>(bone) + i) % humanoid::bone_count);
         const std::int32_t its = (*part.map)[next].node;

@@ -12,7 +12,7 @@
 
 namespace tendril::app {
 
-/// The data that a section reads.
+/// The inputs of a section.
 struct HumanoidPanel {
     const Workspace& workspace;
     const HumanoidPart& part;
@@ -22,7 +22,7 @@ struct HumanoidPanel {
 };
 HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
 
-/// Whether the character is usable and reaches its targets.
+/// Says whether the character is usable and reaches its targets.
 Verdict humanoid_verdict(const Workspace& workspace);
 
 /// Maps the waiting bone to the node (none if negative) and selects that node. If the bone had no node, the
@@ -31,7 +31,7 @@ void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& w
                       Emit& emit);
 
 // Left panel.
-/// The file and what was done to it.
+// / The file, and notes on how it was read.
 void character_rows(const HumanoidPanel& panel);
 /// Each bone with its node and the confidence of the match.
 void bone_rows(const HumanoidPanel& panel, bool open_at_first);
@@ -43,7 +43,7 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more);
 void target_rows(const HumanoidPanel& panel);
 /// The source of joint limits.
 void limit_rows(const HumanoidPanel& panel);
-/// Settings and Remove of the spring or curve that begins at the node, which `argument` of `command` names.
+/// Settings and Remove for the spring or curve that begins at the node, which is `argument` of `command`.
 void settings_row(const HumanoidPanel& panel, const std::string& node, const char* command,
                   const char* argument, const char* help);
 /// Springs on ears, antennae, a tail.

@@ -1,4 +1,4 @@
-// What --state writes of the Humanoid lab.
+// The Humanoid lab's part of --state.
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
@@ -45,7 +45,7 @@ Json bones_state(const HumanoidPart& part, const ShownPose& shown) {
     return bones;
 }
 
-/// What the kept map would change, or why it was ignored; null if there is none, or it is in use.
+/// The kept map's changes, or why it was ignored; null if there is none, or it is in use.
 Json kept_map_state(const Workspace& workspace) {
     KeptMaps& maps = humanoid_runtime(workspace).kept_maps;
     if (const std::string& why = maps.refused(workspace); !why.empty()) return {{"refused", why}};

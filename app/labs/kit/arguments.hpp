@@ -17,7 +17,7 @@
 
 namespace tendril::app {
 
-// Turn a library error into an exception whose message the user reads.
+// Turns a library error into an exception with a message for the user.
 
 /// Throws std::invalid_argument with the result's reason if it is an error.
 inline void require_ok(const Result& result) {

@@ -145,7 +145,7 @@ std::string code(const rig::Input<rig::Value>& input, bool any) {
         input.source);
 }
 
-/// `at`: what the field's accessors take; of a struct, its address.
+/// `at`: the argument of the field's accessors; for a struct, its address.
 std::string value_text(const Field& field, const void* at, const std::string& margin) {
     if (field.type == FieldType::Struct)
         return (field.optional ? library_name(field.kind(at).in_code) : "") +

@@ -23,7 +23,7 @@ std::string braced(const glm::vec3& value);
 std::string braced(const glm::dvec3& value);
 std::string braced(const glm::dquat& value);  ///< "{w, x, y, z}"
 /// A literal with its C++ type: "glm::dquat(w, x, y, z)", "rig::Value(0.5)", "rig::Transform{...}" without
-/// the members that have their default.
+/// members at their default.
 std::string literal_code(bool value);
 std::string literal_code(double value);
 std::string literal_code(const glm::dvec3& value);
@@ -41,10 +41,10 @@ std::string pascal_text(std::string_view name);
 std::string library_name(std::string_view type);
 
 /// ".damping = 0.5": each member that is not at its default, with its structs and lists, in table order;
-/// without defaults each that is not empty. Members must be named, and declared in the order of, their
-/// fields. The elements of a list of structs are on a line each, after `margin`.
+/// without defaults, each that is not empty. Members must have the names of their fields, in the same order.
+/// Each struct in a list is on its own line, after `margin`.
 std::vector<std::string> member_texts(FieldsOf of, const std::string& margin = {});
-/// "{.item = "hand", ...}" with a member per line, after `margin` and four blanks.
+/// "{.item = "hand", ...}" with a member per line, indented by `margin` and four blanks.
 std::string kind_text(std::span<const Field> table, const void* object, const void* fresh,
                       const std::string& margin);
 /// "{.name = "A", .at = {1.0, 0.0}}"

@@ -126,12 +126,12 @@ void CurvePen::line() const {
     glm::vec3 from = place_of(0);
     for (std::size_t i = 0; i < all; ++i) {
         const glm::vec3 to = place_of(i + 1);
-        // Thick bones hide the curve: it shows through, thinner.
+        // Thick bones hide the curve: also draw it in front of them, thinner and fainter.
         list_.line(from, to, px(hovered ? 2.0f : 1.25f), faded(view_.palette, glm::vec3(colour), 0.55f))
             .layer = Layer::Overlay;
         Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
         stroke.pick = first_ + static_cast<PickId>(i);
-        stroke.rank = 1;  // before the bones, which lie along the curve
+        stroke.rank = 1;  // picked before the bones, which lie along the curve
         from = to;
     }
     if (kind_ == ik::CurveKind::Hermite) return;

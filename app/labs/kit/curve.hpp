@@ -25,7 +25,7 @@ inline constexpr EnumNames<ik::CurveKind, 2> curve_kinds{
 struct CurveShape {
     std::vector<glm::vec3> points;  ///< metres
     ik::CurveOptions options{};     ///< without weights
-    /// -1 to 1: by how much less the first bones follow the curve than the last; negative: the last bones.
+    /// -1 to 1: how much less the first bones follow the curve than the last; negative: the reverse.
     float falloff = 0.0f;
 
     bool operator==(const CurveShape&) const = default;
@@ -33,10 +33,10 @@ struct CurveShape {
     ik::CurveOptions with(std::span<const float> weights) const;
 };
 
-/// How far each bone turns to the curve, times the weight; empty: all the way.
+/// The fraction of each bone's rotation to the curve; empty: the whole rotation.
 std::vector<float> curve_weights(const CurveShape& shape, std::size_t bones);
 
-/// Adds a control point at place `at` of ik::curve_point(); the shape stays nearly the same.
+/// Adds a control point at parameter `at` of ik::curve_point(); the shape stays nearly the same.
 std::vector<glm::vec3> with_point_at(std::span<const glm::vec3> points, ik::CurveKind kind, float at);
 
 Json points_json(std::span<const glm::vec3> points);
@@ -48,7 +48,7 @@ glm::vec3 curve_colour(const Palette& palette);
 /// Draws a curve, in strokes that are picked one by one, and its control points.
 class CurvePen {
   public:
-    /// Points in the world's space. The strokes' picks count from `first`. `end`: colour of the last control
+    /// Points are in world space. The strokes' picks count from `first`. `end`: colour of the last control
     /// point; `rank`: the control points' Stroke::rank.
     CurvePen(const View& view, std::span<const glm::vec3> points, ik::CurveKind kind, PickId first,
              glm::vec3 end, std::int16_t rank, DrawList& list)
@@ -58,9 +58,9 @@ class CurvePen {
     /// A ball; the last one is larger.
     void control(std::size_t index, PickId pick, bool selected = false, bool active = false) const;
 
-    /// The number of picks that the curve takes.
+    /// The number of picks that the curve uses.
     static std::size_t strokes(std::size_t points);
-    /// The place on the curve, as ik::curve_point() takes it, of a stroke counted from the first.
+    /// The parameter of ik::curve_point() at a stroke, counted from the first.
     static std::optional<float> place(std::size_t stroke, std::size_t points);
 
   private:

@@ -15,7 +15,7 @@ std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name =
 /// "MP4 has no transparency, animated PNG has"
 std::string no_transparency(const VideoKind& kind);
 /// The request without its frames. A new file is called "<scene>-<what>-1.png". Throws Refused if another
-/// video is being written, or the file cannot be.
+/// video is being written, or the file cannot be written.
 VideoRequest film_request(Workspace& workspace, const Arguments& given, const std::string& what = {});
 
 }  // namespace tendril::app

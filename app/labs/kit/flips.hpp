@@ -1,4 +1,4 @@
-// Flips: a bone turned far in one tick while its target hardly moved. Their rule and likely causes.
+// Flips: a bone turned far in one tick although its target hardly moved. Their rule and likely causes.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

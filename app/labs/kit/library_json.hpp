@@ -33,12 +33,12 @@ inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
     "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 
 Json save_ik_state(const ik::State& state);
-/// The state of `bones` bones, at rest if the file has no rotations. `joints` are for a pole without joints.
+/// The state of `bones` bones, at rest if the file has no rotations. A pole without joints gets `joints`.
 /// Throws std::runtime_error that begins with the JSON path of the fault.
 ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints = {});
 
-/// The fields of a spring's state as rigs and filters save it. A spring may reach max_output, which the
-/// library's own table does not allow.
+/// A spring's state as rigs and filters save it. A spring may reach max_output, which the library's own table
+/// does not allow.
 template <class T>
 std::span<const Field> spring_fields() noexcept {
     using State = signal::SpringState<T>;

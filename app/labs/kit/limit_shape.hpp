@@ -14,17 +14,16 @@ namespace tendril::app {
 class LimitShape {
   public:
     /// `rest`, of length 1, is the bone's rest direction in the frame of the limit's axis; `parent` rotates
-    /// that frame into the world's. The limit must be valid and not free.
+    /// that frame to world space. The limit must be valid and not free.
     LimitShape(const ik::Limit& limit, glm::vec3 rest, glm::quat parent);
 
     const ik::Limit& limit() const { return limit_; }
     bool is_hinge() const { return limit_.kind == ik::JointKind::Hinge; }
-    /// Where the bone points after a swing of `up` and `left` radians; of length 1.
+    /// The bone's direction after a swing of `up` and `left` radians; of length 1.
     glm::vec3 direction(float up, float left) const;
-    /// Directions on the bound, `steps` + 1 of them: once round a cone, or from a hinge's minimum to its
-    /// maximum.
+    /// `steps` + 1 directions on the boundary: once round a cone, or from a hinge's minimum to its maximum.
     std::vector<glm::vec3> outline(int steps) const;
-    /// A direction at right angles to the bone at these angles that shows its twist; of length 1.
+    /// A direction perpendicular to the bone at these angles that shows its twist; of length 1.
     glm::vec3 side(const ik::JointAngles& angles) const;
 
   private:
@@ -81,7 +80,7 @@ class LimitPen {
 struct JointTurn {
     double swing = 0.0;  ///< 0 to 180
     double twist = 0.0;  ///< -180 to 180
-    double angle = 0.0;  ///< the whole rotation's: 0 to 180
+    double angle = 0.0;  ///< of the whole rotation, 0 to 180
 };
 
 /// `turn`: the rotation from rest, of any length but 0. `along`: the bone's rest direction in the same frame,

@@ -1,5 +1,5 @@
-// A path that moves an object over time: the target in the Chain lab, a collider in the Rope lab. A student
-// can watch how a method follows a steady movement, pause it and step it.
+// A path that moves an object over time: the target in the Chain lab, a collider in the Rope lab. It shows
+// how a method follows a steady movement, and can be paused and stepped.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ inline constexpr EnumNames<Motion::Path, 4> motion_paths{"path",
 /// `span` of the centre is that far out.
 void check_path(glm::vec3 centre, glm::vec3 span, const char* what);
 
-/// The point after `ticks` ticks. Circles and figure eights start right of the centre, sweeps at it.
+/// The point after `ticks` ticks. Circles and figure eights start right of the centre, sweeps at the centre.
 glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks);
 std::uint32_t ticks_per_round(const Motion& motion);
 
@@ -48,6 +48,6 @@ Motion load_motion(const JsonPlace& place);
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept;
-/// Of path, radius and period.
+/// The fields path, radius and period.
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::Motion>();

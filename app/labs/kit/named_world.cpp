@@ -234,7 +234,7 @@ std::span<const FieldText> field_texts<rope::Settings>() {
                                           rope_solvers.row(rope::Solver::Xpbd),
                                           rope_solvers.row(rope::Solver::Relaxation)};
     static constexpr FieldText texts[] = {
-        {.name = "substep",  // the panel has a row of substeps per second
+        {.name = "substep",  // the panel shows substeps per second
          .help = "The length of the equal steps that the simulation takes. Shorter ones follow fast motion "
                  "better and cost more."},
         {.name = "iterations",

@@ -52,7 +52,7 @@ struct Became {
     std::vector<std::string> pieces;     ///< the names of the pieces that came off, in the order of particles
 };
 
-/// A value type, like the library's world; the state that only stepping needs is in a rope::Workspace.
+/// A value type, like the library's world; state that only stepping needs is in a rope::Workspace.
 class NamedWorld {
   public:
     NamedWorld() = default;
@@ -78,15 +78,15 @@ class NamedWorld {
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
     const std::string& name(const rope::Tie& tie) const { return ties_[tie.id.index]; }
 
-    // The rest throws std::invalid_argument if the library refuses, or if a name is taken or unknown.
+    // From here on, throws std::invalid_argument if the library refuses, or a name is taken or unknown.
     void set_settings(const rope::Settings& settings);
     void clear() { world_.clear(); }
-    /// Each returns the body's name; an empty `name` becomes "rope", "rope 2", ...
+    /// Returns the body's name; an empty `name` becomes "rope", "rope 2", ...
     std::string add_rope(const std::string& name, const rope::RopeShape& shape);
     std::string add_cloth(const std::string& name, const rope::ClothShape& shape);
     /// `attach` is a collider's name, or empty.
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
-    // Pieces that come off a body have its colour, and its name with the next free number.
+    // Pieces that come off a body get its colour, and its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
     Became cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines);
     Became part_body(std::string_view body);
@@ -120,9 +120,9 @@ class NamedWorld {
     rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps);
 
     std::size_t size() const { return world_.size(); }
-    // In single precision, for drawing: where things are at the frame's own time (rope::World::pose).
+    // In single precision, for drawing: positions at the frame's own time (rope::World::pose).
     glm::vec3 position(std::size_t particle) const;
-    std::vector<glm::vec3> positions() const;  ///< all particles'
+    std::vector<glm::vec3> positions() const;  ///< of all particles
     rope::Shape shape(const rope::Collider& collider) const { return world_.pose(collider); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
     double length_error(const rope::Body& body) const { return world_.length_error(body); }
@@ -150,7 +150,7 @@ class NamedWorld {
 
 template <>
 std::span<const FieldText> field_texts<rope::Settings>();
-/// Its rows "wind", "gusts" and "still_air".
+/// The fields "wind", "gusts" and "still_air".
 std::span<const Field> wind_fields();
 std::span<const FieldText> wind_texts();
 
@@ -174,7 +174,7 @@ glm::vec3 strain_colour(float strain, const Palette& palette);
 
 /// The colour of a cloth's front, unless the body has its own.
 glm::vec3 cloth_front(const Palette& palette);
-/// Of bodies without a colour of their own, by kind; ByKind: the palette's.
+/// Colours of bodies without one of their own, by kind. ByKind: the palette's.
 struct KindColours {
     BodyColour rope = BodyColour::ByKind, hair = BodyColour::ByKind, cloth = BodyColour::ByKind;
 };
@@ -183,7 +183,7 @@ BodyColour colour_of(const NamedWorld& world, const rope::Body& body, const Kind
 glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& palette);
 glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette,
                       const KindColours& kinds = {});
-/// One for each particle: its body's, or by the worst strain of its links.
+/// One for each particle: its body's colour, or the colour of the worst strain of its links.
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain,
                                         const KindColours& kinds = {});
 
@@ -201,7 +201,7 @@ std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body&
 /// Tubes with `sides` sides (3 to 64); hair always has six.
 void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
                   std::span<const glm::vec3> positions, std::span<const glm::vec3> colours, int sides);
-/// Without colours, in the body's colour; its back is paler than its front.
+/// Without `colours`, uses the body's colour; the back is paler than the front.
 void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
                 const Palette& palette, const KindColours& kinds = {});

@@ -116,7 +116,7 @@ void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, Verdi
     if (!said.why.empty()) note(said.why);
     const float between = static_cast<float>(room.paragraphs - 1) * ImGui::GetStyle().ItemSpacing.y;
     const float height = verdict_height(room.verdict) + note_height(room.notes) + between;
-    if (said.cure) {  // at the end of the space: nothing moves once the cure is gone
+    if (said.cure) {  // at the end of the space: nothing moves when the cure disappears
         const float spacing = ImGui::GetStyle().ItemSpacing.y, y = ImGui::GetCursorPosY();
         const float last = top + height - ImGui::GetTextLineHeight() - spacing;
         if (last < y && y - spacing <= last) ImGui::SetCursorPosY(last);

@@ -15,13 +15,13 @@
 
 namespace tendril::app {
 
-/// A heading that folds its section by a click anywhere on it; true if the section is open: its rows are
-/// drawn while this exists. Saved in the settings, by lab and title.
+/// A heading that folds its section by a click anywhere on it; true if the section is open. Its rows are
+/// drawn while this object exists. Saved in the settings, by lab and title.
 class [[nodiscard]] FoldingSection {
   public:
     FoldingSection(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first = true);
     explicit operator bool() const& { return open_; }
-    explicit operator bool() && = delete;  // its rows would be drawn after its end
+    explicit operator bool() && = delete;  // a temporary would end before its rows are drawn
 
   private:
     bool open_;
@@ -31,7 +31,7 @@ class [[nodiscard]] FoldingSection {
 /// The same with its rows; the rows given to the MoreRows come last, under "More".
 void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,
                      const std::function<void(MoreRows&)>& rows);
-/// The end of the section `title`: its rows under "More", folded at first. Saved in the settings like a
+/// The end of the section `title`: its rows under "More", which starts folded. Saved in the settings like a
 /// section.
 void more_rows(const Workspace& workspace, const char* title, const MoreRows& more, Emit& emit);
 
@@ -61,8 +61,8 @@ struct Verdict {
     std::optional<Cure> cure{};  ///< performs the next step
 };
 
-/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut to fit; or, `whole`,
-/// stands above it.
+/// Runs a cure: a small button at the right end of a line. `text` is before it, cut to fit; with `whole`,
+/// above it and uncut.
 void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit, bool whole = false);
 
 /// The maximum lines of a verdict and of the text below it, in a panel of the usual width.

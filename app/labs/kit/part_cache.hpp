@@ -12,7 +12,7 @@
 
 namespace tendril::app {
 
-/// One holder's part of a shared object's bytes: all of them if it is the only holder.
+/// One holder's share of a shared object's bytes: all of them if it is the only holder.
 template <class Shared>
 std::size_t share_of(const std::shared_ptr<Shared>& shared, std::size_t bytes) {
     return shared ? bytes / static_cast<std::size_t>(shared.use_count()) : 0;

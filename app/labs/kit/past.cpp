@@ -52,7 +52,7 @@ namespace {
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
 constexpr std::size_t max_rows = 5;        ///< of the inspector's incidents
-/// Moments computed per frame. A count, not a time limit, so that every run draws the same.
+/// Moments computed per frame. A count, not a time limit, so that every run draws the same pictures.
 constexpr std::size_t moments_a_frame = 16;
 
 /// "Joint 2 flipped: one of its bones turned 128 degrees in one tick"
@@ -407,7 +407,7 @@ void draw_turn(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, 
         const float t = static_cast<float>(i) / sides;
         const glm::vec3 chord = glm::mix(from, to, t) - about;
         const float length = glm::length(chord), radius = glm::mix(radius_from, radius_to, t);
-        // A half turn has no shorter way round: draw it straight.
+        // A half turn has no shorter way: draw a straight line.
         const glm::vec3 next = length > 0.05f * radius ? about + chord * (radius / length) : about + chord;
         list.line(last, next, 2.0f * view.scale, colour).layer = Layer::Overlay;
         last = next;
@@ -427,7 +427,7 @@ void draw_incident_mark(const View& view, const Incident& incident, glm::vec3 at
 
 namespace {
 
-/// "1.4 s ago", counted from the latest moment, whichever is shown.
+/// "1.4 s ago", relative to the latest moment, whichever one is shown.
 std::string age_text(const Workspace& workspace, const Incident& incident) {
     const std::uint64_t after = incident.tick + 1, now = past_ticks(workspace).last;
     if (after >= now) return "just now";
@@ -446,7 +446,7 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
         title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
     const std::string whole = title;
     const float room = ImGui::GetContentRegionAvail().x;
-    const std::size_t bone = title.find(" (");  // its name makes way for the amount
+    const std::size_t bone = title.find(" (");  // the name leaves space for the amount
     if (bone != title.npos && elided(title, room) != title)
         title.erase(bone, title.find(')', bone) + 1 - bone);
     title = elided(title, room);
@@ -470,7 +470,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     std::size_t rows = 0;
     for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
         incident_row(workspace, i, palette, emit);
-    // Place it below the rows, which must not move under the mouse that clicks one.
+    // Below the rows, which must not move under the mouse that clicks one.
     const auto& shown = workspace.ui.incident;
     bool& seen = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("incident seen"));
     const bool appears = shown.has_value() && !seen;

@@ -1,8 +1,8 @@
-// A lab's last ten seconds. Below the scene a strip has a mark for each incident, and a plot of one number;
-// in the scene are faint past poses, one for each half second; the inspector lists the incidents.
+// A lab's last ten seconds. Below the scene, a strip has a mark for each incident and a plot of one number;
+// the scene shows faint past poses, one for each half second; the inspector lists the incidents.
 //
 // A lab declares its table, Lab::past(): the numbers that can be plotted, which lines show its pose, and what
-// happened between two ticks. The rest follows: settings and their commands, strip, plot, --state. Values are
+// happened between two ticks. Settings and their commands, strip, plot and --state follow from it. Values are
 // computed only while they are shown, and cached while the rewind holds their moment.
 #pragma once
 
@@ -41,20 +41,20 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// A number over time.
 struct PastCurve {
-    std::string name;                                  ///< of what: "swing of joint 2"
+    std::string name;                                  ///< the plotted number: "swing of joint 2"
     std::string unit = "deg";                          ///< or "m", "N", ...
     float lowest_range = 10.0f;                        ///< minimum upper end of the axis, in `unit`
     std::string missing{};                             ///< shown if no moment has a value: how to get one
     std::function<double(const SharedPart&)> value{};  ///< in `unit`; no_value if unknown
-    /// Whether a moment's value is cheap to compute. Null: always.
+    /// Whether a moment's value is cheap to compute. Null: always cheap.
     std::function<bool(const SharedPart&)> at_hand{};
-    std::string of{};  ///< a new key drops the cached values; empty: the name
+    std::string of{};  ///< when this key changes, cached values are dropped; empty: the name
 };
 
 /// A number that a lab can plot.
 struct Probe {
     const char *name, *title;              ///< in commands and in menus: "swing", "swing of a joint"
-    PastCurve (*curve)(const Workspace&);  ///< of what is selected now
+    PastCurve (*curve)(const Workspace&);  ///< for the present selection
 };
 
 /// A pose as line segments.
@@ -66,8 +66,8 @@ struct Past {
     std::vector<Probe> probes;
     const char *plot_help, *ghosts_help;
     PoseLines (*pose)(const Workspace&, const SharedPart&);
-    /// Whether two parts have the same joints; if not, the poses of one cannot be shown with the other, and
-    /// its incidents are dropped.
+    /// True if two parts have the same joints; if not, poses of one cannot be shown with the other, and its
+    /// incidents are dropped.
     bool (*same_joints)(const Part& then, const Part& now) = nullptr;
     /// Events in a change or a tick that the user may ask about, such as a joint that jumped.
     std::vector<Incident> (*incidents)(const Workspace&, const Part& before, const Part& after) = nullptr;
@@ -75,7 +75,7 @@ struct Past {
     LabSetting plot() const;    ///< "nothing", or a probe
     LabSetting ghosts() const;  ///< "nothing", or "past"
     bool shows_ghosts(const Settings& settings) const { return ghosts().chosen(settings) > 0; }
-    /// Of the chosen probe, if one is plotted.
+    /// The curve of the chosen probe, if one is plotted.
     std::optional<PastCurve> curve(const Workspace& workspace) const;
 };
 
@@ -88,7 +88,7 @@ struct PastTicks {
     /// The index of a tick, counted from `first`.
     int place(std::uint64_t tick) const { return static_cast<int>(std::clamp(tick, first, last) - first); }
 };
-/// The strip always has this length, however little is recorded.
+/// The strip always has this length, even if less is recorded.
 inline constexpr int past_strip_ticks = static_cast<int>(Rewind::max_ticks) + 1;
 /// At an earlier moment: "An edit here discards the 2.3 s after it. Undo brings them back."; else empty.
 std::string discards_text(const Workspace& workspace);
@@ -119,12 +119,12 @@ void tell_incident(const Incident& incident);
 
 /// Pixels at scale 1, below the strip; 0 if nothing is plotted.
 float past_plot_height(const Settings& settings, const Past& past);
-/// A live window fills the plot over several frames: each computes a few moments that are not cheap, newest
+/// A live window fills the plot over several frames: each frame computes a few expensive moments, newest
 /// first. `strip`: the strip above, if any; both then share their time axis. A click or drag seeks, as on the
 /// strip.
 void past_plot(const Workspace& workspace, const Past& past, const std::optional<StripLine>& strip,
                Emit& emit);
-/// Whether moments are still to be computed.
+/// True if some moments are not computed yet.
 bool past_plot_waits(const Workspace& workspace, const Past& past);
 
 /// The value at a tick. The last one may be the present.
@@ -133,8 +133,7 @@ struct PastValue {
     float value = 0.0f;
 };
 inline constexpr std::size_t all_moments = std::numeric_limits<std::size_t>::max();
-/// The known values of the curve, by tick. Computes at most `most_made` that are not cheap and omits the
-/// rest.
+/// The known values of the curve, by tick. Computes at most `most_made` expensive ones and omits the rest.
 std::vector<PastValue> past_values(const Workspace& workspace, const Past& past, const PastCurve& curve,
                                    std::size_t most_made = all_moments);
 
@@ -142,7 +141,7 @@ std::vector<PastValue> past_values(const Workspace& workspace, const Past& past,
 
 /// The panel rows that choose the plot and switch the past poses.
 void past_rows(const Workspace& workspace, const Past& past, Emit& emit);
-/// The inspector's latest incidents; a click goes to one. Nothing if there are none.
+/// The inspector's latest incidents; a click goes to one. Draws nothing if there are none.
 void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 /// {"plot": null or the plot with its values, "ghosts": ticks}.
 Json past_state(const Workspace& workspace, const Past& past);
@@ -154,10 +153,10 @@ std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, con
 /// Poses with more lines are not drawn: twenty of them would clutter the picture.
 inline constexpr std::size_t max_ghost_lines = 1000;
 void draw_past_ghosts(const View& view, const Past& past, DrawList& list);
-/// The legend's row of them, while they are shown.
+/// Adds the past poses to the legend while they are shown.
 void add_ghost_legend(const Workspace& workspace, const Past& past, std::vector<LegendRow>& rows);
 
-/// The arc of a bone's end from `from` to `to`, the shorter way round `about`.
+/// The arc of a bone's end from `from` to `to` about `about`, the shorter way.
 void draw_turn(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, DrawList& list);
 /// A ring around the joint and, for a flip, the angle.
 void draw_incident_mark(const View& view, const Incident& incident, glm::vec3 at, DrawList& list);

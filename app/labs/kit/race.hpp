@@ -14,7 +14,7 @@ namespace tendril::app {
 
 inline constexpr std::size_t max_racers = 7;
 
-/// The colour of a racer in view, panel and curves; racers differ in lightness, too.
+/// The colour of a racer in view, panel and curves; racers also differ in lightness.
 glm::vec3 racer_colour(const Palette& palette, std::size_t racer);
 
 /// Small text at the right end of a line, cut to fit.

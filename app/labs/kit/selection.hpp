@@ -1,4 +1,4 @@
-// The selected indices, 0-based. The active one was selected last: inspectors show it and edit all.
+// The selected indices, 0-based. The one selected last is active: inspectors show it, and edit all.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A lab's rows in the tables of the shell: its choices for the user, its keys and its mouse gestures.
+// A lab's rows in the shell's tables: user settings, keys and mouse gestures.
 #pragma once
 
 #include <cstddef>

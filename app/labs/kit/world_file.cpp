@@ -55,7 +55,7 @@ struct WorldRows {
     std::vector<CollisionRow> collisions{};
 };
 
-/// A row's own fields, and those of its first member, which shares its address.
+/// A row's own fields and those of its first member, which has the same address.
 template <class Row, class First>
 std::vector<Field> with_fields_of(First Row::*, std::initializer_list<Field> own) {
     static_assert(std::is_standard_layout_v<Row>);
@@ -297,7 +297,7 @@ NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> 
 namespace {
 
 constexpr float min_strain = 1e-4f, full_strain = 0.1f;
-constexpr int strand_sides = 6;  // indistinguishable from more on a hair
+constexpr int strand_sides = 6;  // more make no visible difference on a hair
 
 }  // namespace
 
@@ -329,7 +329,7 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, min_strain) / min_strain) / std::log(full_strain / min_strain);
-    // Start from a grey that is lighter than both, in either theme.
+    // Start from a grey lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }
@@ -344,7 +344,7 @@ std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& 
                         body_colour(world, body, palette, kinds));
         return colours;
     }
-    // The worst strain of the links at each particle.
+    // The worst strain of each particle's links.
     std::vector<float> worst(world.size(), 0.0f);
     for (const rope::Link& link : state.links) {
         if (link.kind != rope::Link::Kind::Stretch || link.rest <= 0.0f) continue;

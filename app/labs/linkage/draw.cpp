@@ -104,7 +104,7 @@ class LinkageDrawing {
         }
     }
 
-    /// The other legs, and the marks on the ground that pass beneath them.
+    /// The other legs, and the marks on the ground that move beneath them.
     void walker() {
         if (part_.copies.empty()) return;
         for (const LinkageCopy& copy : part_.copies)
@@ -187,7 +187,7 @@ class LinkageDrawing {
         Stroke& ball = list_.sphere(at(i), px(lit ? 7.5f : 6.0f), Unit::Pixels, opaque(colour));
         ball.pick = pick;
         ball.rank = held ? 1 : 2;
-        // Messages and the card name joints, so the picture does too where there is room.
+        // Messages and the card refer to joints by name, so the picture names them too if there is room.
         constexpr std::size_t few = 8;
         const bool room = part_.copies.empty() && part_.linkage().points.size() <= few;
         const bool named = lit || room || view_.workspace.settings.labels == LabelMode::Always;
@@ -320,7 +320,7 @@ Bounds linkage_bounds(const Workspace& workspace) {
     for (const LinkageCopy& copy : part.copies)
         for (std::size_t i = 0; i < count; ++i) take(part.at(i, copy));
     PartInTurn in_turn(part);
-    LinkageRuntime fresh;  // depends on the pose alone, since the camera follows from it
+    LinkageRuntime fresh;  // depends only on the pose, since the camera follows it
     for (const LinkageTurn::Pose& pose : fresh.turn(part).poses)
         for (std::size_t i = 0; i < count; ++i) take(in_turn.at(pose)->at(i));
     for (const LinkageTarget& each : part.targets) take(each.to);

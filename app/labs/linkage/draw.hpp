@@ -29,11 +29,11 @@ void look_at_linkage(Workspace& workspace);
 /// Frames the same bounds from the present direction if part of them is out of view.
 void keep_linkage_in_view(Workspace& workspace);
 
-/// The speed along a path, m/s, that has the colour of fast: the highest, but at most three times the mean,
-/// as next to a dead point all else would look slow.
+/// The speed along a path, m/s, with the colour of fast: the highest, but at most three times the mean. Next
+/// to a dead point everything else would look slow.
 struct PathSpeed {
     double fast = 0.0;
-    bool exceeded = false;  ///< it is faster somewhere
+    bool exceeded = false;  ///< the point is faster somewhere
 };
 PathSpeed path_speed(const std::vector<PathPoint>& path);
 

@@ -1,4 +1,4 @@
-// The Linkage lab's inspector: the state of the linkage, the range of its motor, and the selected joint.
+// The Linkage lab's inspector: the linkage's state, its motor's range, and the selected joint.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

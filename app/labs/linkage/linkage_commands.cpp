@@ -41,7 +41,7 @@ void preset(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) 
     open_mechanism(part, mechanism_kind(given.text("name")).blank(), runtime);
 }
 
-/// Throws Refused where the part was drawn by hand.
+/// Throws Refused if the part was drawn by hand.
 Mechanism mechanism_of(const LinkagePart& part) {
     if (kind_of(part.shape->mechanism) == nullptr)
         throw Refused("this linkage was drawn by hand: it has no named lengths");
@@ -66,7 +66,7 @@ void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runt
     take_shape(part, shape_of(mechanism), runtime);
 }
 
-/// Keeps the speed, to run at it again.
+/// Keeps the speed for the next run.
 void stop(LinkageDrive& drive) {
     if (drive.rate != 0.0) drive.last_rate = drive.rate;
     drive.rate = 0.0;
@@ -164,7 +164,7 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     solve_linkage(part, runtime);
 }
 
-/// Assembly modes meet at a dead point, so this switches one step away from it, where they differ.
+/// Assembly modes meet at a dead point, so this switches one step beside it, where they differ.
 bool switch_near_dead_point(const LinkagePart& part, ik::LinkageSolver& solver, ik::LinkageState& state,
                             std::vector<ik::LinkDriver> drivers) {
     const ik::LinkageReport& report = part.result.report;

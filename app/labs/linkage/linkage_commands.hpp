@@ -24,27 +24,27 @@ inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
 inline glm::dvec2 guide_direction(const ik::SketchPoint& point) {
     return {std::cos(point.guide), std::sin(point.guide)};
 }
-/// The row of that line, as the command linkage.guide and the inspector have it.
+/// That line's field, for the command linkage.guide and the inspector.
 std::span<const Field> guide_fields();
 /// The bars that meet at a point of the sketch.
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
-/// Whether the inspector offers a motor for each pair of bars at the point: it is free, and they are few.
+/// True if the inspector offers a motor for each pair of bars at the point: it is free and has few bars.
 bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
-/// Grows or shrinks a bar of two joints; the others keep their lengths, motors and held joints stay if they
-/// can. Throws Refused with the length that it gets to.
+/// Changes the length of a bar with two joints. The others keep their lengths; motors and held joints stay if
+/// they can. Throws Refused with the length that can be reached.
 void set_bar_length(ik::LinkageSketch& sketch, std::size_t bar, double metres);
 /// Reads lengths by name from an object; omitted ones stay the same. Throws std::runtime_error with the JSON
 /// path of the error.
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism);
 /// Advances all motors by one tick.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
-/// Whether the motor is switched on, even if it cannot move.
+/// True if the motor is switched on, even if it cannot move.
 inline bool is_running(const LinkageDrive& drive) {
     return drive.rate != 0.0;
 }
-/// Whether a driver is still short of a value that one solve could not reach; the next solve continues.
+/// True if a driver is still short of a value that one solve could not reach; the next solve continues.
 bool goes_on(const LinkagePart& part);
-/// Whether the motor cannot move on: it is at a dead point, or at the end of a range.
+/// True if the motor cannot continue: it is at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 
 /// An argument that names a point.

@@ -21,7 +21,7 @@ const T* picked(const std::vector<T>& all, PickId pick, PickId first) {
     return is_one ? &all[static_cast<std::size_t>(pick - first)] : nullptr;
 }
 
-constexpr float catch_pixels = 14.0f;  ///< maximum distance from a joint or bar at which a stroke takes it
+constexpr float catch_pixels = 14.0f;  ///< maximum distance from a joint or bar at which a stroke snaps to it
 
 /// The end of a stroke: an existing joint, or a position in the plane.
 struct StrokeEnd {
@@ -75,7 +75,7 @@ std::string call_text(const Mechanism& mechanism) {
            comma_list(member_texts(mechanism_fields(mechanism))) + "})";
 }
 
-/// Code that sets the ranges set by hand, before the solver is made.
+/// Code for the ranges set by hand, before the solver is made.
 std::string ranges_text(const LinkagePart& part) {
     std::string text;
     for (const LinkageRange& each : part.shape->ranges) {
@@ -141,7 +141,8 @@ int LinkageLab::loop_ticks(const Workspace& workspace) const {
     const double tick = std::abs(drives[0].rate) * tick_seconds * static_cast<double>(workspace.clock.speed);
     const double ticks = std::round(glm::two_pi<double>() / tick);
     if (ticks < 1.0 || ticks > static_cast<double>(Rewind::max_ticks)) return 0;
-    const std::uint64_t present = workspace.moment > past.newest() ? 1 : 0;  // not yet remembered
+    const std::uint64_t present =
+        workspace.moment > past.newest() ? 1 : 0;  // the present is not remembered yet
     const auto& then = past.at(static_cast<std::uint64_t>(ticks) - present).part;
     const LinkageDrive* const before = part_as<LinkagePart>(*then).find_drive(drives[0].joint);
     const double turned = before != nullptr ? std::abs(drives[0].value - before->value) : 0.0;
@@ -168,7 +169,7 @@ void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Fra
     const ik::LinkPoint* const point = picked(part.linkage().points, pick, linkage_pick(0));
     if (point == nullptr) return;
     const bool stays = point->link == ik::ground_link;
-    if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // the lengths determine it
+    if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // the lengths determine the pose
     emit.continuously(stays ? "linkage.move" : "linkage.drag",
                       {{"point", point->name}, {"to", from_scene(part, frame.position)}});
 }
@@ -286,7 +287,7 @@ Json linkage_state(const LinkagePart& part) {
 Json LinkageLab::state(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
     const double transmission = transmission_angle(part);
-    LinkageRuntime fresh;  // depends on the pose alone, to the bit
+    LinkageRuntime fresh;  // depends only on the pose, to the bit
     const LinkageTurn& turn = fresh.turn(part);
     Json worst;
     if (const auto found = worst_transmission(part, turn)) {
@@ -294,7 +295,7 @@ Json LinkageLab::state(const Workspace& workspace) const {
         worst = {{"degrees", found->degrees}, {"at", shown_value(part, joint, found->value).value}};
     }
     Json state = Lab::state(workspace);
-    Json motors = std::move(state["drivers"]);  // `drivers` has their angles alone
+    Json motors = std::move(state["drivers"]);  // `drivers` has only their angles
     state["motors"] = std::move(motors);
     state.update(linkage_state(part));
     state.update({{"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
@@ -344,7 +345,7 @@ std::string LinkageLab::code(const Workspace& workspace) const {
         "\n    for (int frame = 0; frame <= 60; ++frame) {\n"
         "        std::vector<ik::LinkDriver> drivers;\n";
     LinkageRuntime runtime;
-    const bool moves = part.targets.empty() && part.result.freedom.actual == 1;  // so does a motor at rest
+    const bool moves = part.targets.empty() && part.result.freedom.actual == 1;  // a motor at rest counts too
     if (moves && !part.drives.empty() && std::ranges::none_of(part.drives, is_running))
         text += "        // The motor is at rest in the lab; here it runs.\n";
     for (const LinkageDrive& each : moves ? moving_drives(part, runtime) : part.drives) {

@@ -9,8 +9,7 @@ namespace tendril::app {
 
 /// The linkage's state for --state and `tendril solve`: hinges in degrees, everything else in metres.
 Json linkage_state(const LinkagePart& part);
-/// The state of the linkage, or the next thing to do: the first text of the inspector. `playing`: the
-/// simulation runs.
+/// The state of the linkage, or the next step: the inspector's first text. `playing`: the simulation runs.
 Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool playing = true);
 /// The label of the motor button: "Run", "Stop", "Continue" if the simulation is paused, "Stopped at 43.0
 /// degrees: turn back".

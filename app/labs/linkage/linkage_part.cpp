@@ -92,7 +92,7 @@ std::size_t LinkagePart::bytes() const {
 
 namespace {
 
-/// Ends the mouse's drag in the present pose, and updates the report for the linkage without it.
+/// Ends the mouse's drag in the present pose, and updates the report without it.
 void let_go_in_pose(LinkagePart& part) {
     if (!part.drag) return;
     part.drag.reset();
@@ -155,7 +155,7 @@ std::shared_ptr<const Part> LinkagePart::at_moment(std::shared_ptr<const Part> t
 
 namespace {
 
-/// Turns the library's refusal into an error with its place.
+/// Turns the library's refusal into an error with its JSON path.
 LinkageShape made_shape(const JsonPlace& place, const auto& from) {
     try {
         return shape_of(from);
@@ -244,7 +244,8 @@ void check_loaded(const JsonPlace& place, LinkagePart& part) {
         const double fastest = from_degrees(part, part.drives[i].joint, max_motor_rate);
         for (const char* const name : {"rate", "last_rate"})
             if (driver.has(name)) static_cast<void>(driver[name].real(-fastest, fastest));
-        if (!driver.has("value")) part.drives[i].value = part.state.joints[link].value;  // in older files
+        if (!driver.has("value"))
+            part.drives[i].value = part.state.joints[link].value;  // missing in older files
     }
     for (std::size_t i = 0; i < part.targets.size(); ++i)
         check_point(place["targets"].element(i)["point"], linkage);

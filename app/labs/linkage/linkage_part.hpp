@@ -42,7 +42,7 @@ struct MechanismKind {
     const char* drivers = "";  ///< in space: name prefix of the driven links
 };
 
-/// In the order of the variant's alternatives, from the second on.
+/// In the order of the variant's alternatives, starting with the second.
 const std::vector<MechanismKind>& mechanism_kinds();
 /// Throws std::invalid_argument for an unknown name.
 const MechanismKind& mechanism_kind(std::string_view name);
@@ -76,8 +76,8 @@ struct LinkageRange {
     bool operator==(const LinkageRange&) const = default;
 };
 
-/// A motor's crank, its coupler, and the rocker or slider that the coupler drives. Each is a rigid body of
-/// one or more bars. Indices into the sketch.
+/// A motor's crank, its coupler, and the rocker or slider that the coupler drives: three rigid bodies of one
+/// or more bars. Indices into the sketch.
 struct DrivenLoop {
     std::size_t motor = 0;
     std::size_t tip = 0;                ///< where the crank meets the coupler
@@ -95,7 +95,7 @@ struct LinkageShape {
     std::vector<DrivenLoop> driven{};    ///< loops driven by motors that push against the ground
     std::size_t loops = 0;               ///< number of loops of the bodies; floating bars have none
     std::vector<LinkageRange> ranges{};  ///< ranges set by hand; the mechanism may have its own
-    ik::Linkage linkage{};               ///< built from the bars that are held, with all ranges
+    ik::Linkage linkage{};               ///< built from the held bars, with all ranges
     ik::LinkageFreedom loose{};          ///< degrees of freedom of the floating bars
 
     bool in_plane() const { return !sketch.points.empty() || linkage.links.empty(); }
@@ -104,7 +104,7 @@ struct LinkageShape {
 /// A driven joint, identified by the name of its link.
 struct LinkageDrive {
     std::string joint;
-    double value = 0.0;      ///< radians or metres: the wanted value if held, else the joint's present one
+    double value = 0.0;      ///< radians or metres: the wanted value if held, else the present one
     double rate = 0.0;       ///< motor speed, radians or metres per second; 0: stopped
     bool held = false;       ///< keeps this value; otherwise the joint follows the others
     double last_rate = 0.0;  ///< the speed it last ran at; 0: none yet
@@ -191,21 +191,21 @@ struct LinkageTurn {
     bool whole = false;                   ///< it turns all the way round: the first pose follows the last
     std::vector<Pose> poses{};            ///< in order of `value`; closer where the linkage is fast
 };
-/// A point of a path: its position, and its speed in metres per second, at the leading motor's speed or, if
-/// that is stopped, the usual one.
+/// A point of a path: its position, and its speed in metres per second at the leading motor's speed or, if it
+/// is stopped, at the usual one.
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
 };
 
-/// A length of a motor's crank, metres, with which it turns all the way round.
+/// A crank length, metres, at which the motor turns all the way round.
 struct RoundCrank {
     double length = 0.0;
-    double longest = 0.0;          ///< the linkage folds just beyond it
-    std::optional<double> from{};  ///< the motor's value to set it at; none: where it is
+    double longest = 0.0;          ///< beyond it, the linkage folds
+    std::optional<double> from{};  ///< the motor value at which to set it; none: the present one
 };
 
-/// The solver of the lab's linkage, created once for each shape, and caches of what follows from it.
+/// The solver of the lab's linkage, created once for each shape, and caches derived from it.
 class LinkageRuntime final : public Runtime {
   public:
     ik::LinkageSolver& solver(const std::shared_ptr<const LinkageShape>& shape);
@@ -213,9 +213,9 @@ class LinkageRuntime final : public Runtime {
     const LinkageTurn& turn(const LinkagePart& part);
     /// The selected point's path through the turn; empty if there is none.
     std::vector<PathPoint> path(const LinkagePart& part);
-    /// The nearest shorter crank of the leading motor, in this pose or, if it is folded there, in the middle
-    /// of its travel. None if there is none, if the crank has other bars or joints on it, or if the linkage
-    /// has other degrees of freedom.
+    /// The nearest shorter crank for the leading motor, in this pose or, if the linkage is folded there, in
+    /// the middle of its travel. None if no length works, the crank has other bars or joints on it, or the
+    /// linkage has other degrees of freedom.
     std::optional<RoundCrank> round_crank(const LinkagePart& part, std::size_t motor);
 
   private:
@@ -226,16 +226,16 @@ class LinkageRuntime final : public Runtime {
     std::optional<ik::LinkageSolver> solver_;
     LinkageTurn turn_;
 };
-/// The joint that drives the turn: the first driver's, or else the first one on the ground.
+/// The joint that drives the turn: the first driver's or, without drivers, the first one on the ground.
 std::optional<std::size_t> leading_joint(const LinkagePart& part);
 
-/// Moves the linkage to its held drivers and targets, or to the mouse's drag alone. All drivers are watched.
+/// Moves the linkage to its held drivers and targets, or only to the mouse's drag. Watches all drivers.
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options = {});
-/// Computes the report of a solve from this pose, but leaves pose and driver values unchanged, to the bit.
+/// Computes a solve's report from this pose; pose and driver values do not change, to the bit.
 void report_in_pose(LinkagePart& part);
 /// Replaces the shape. A linkage drawn by hand takes the pose it is drawn in; a mechanism of the same kind
-/// keeps its present pose as far as names match. Drivers, targets, ranges and selection stay where their
-/// names exist, and held drivers keep their values; removing a motor removes its driver.
+/// keeps its present pose as far as names match. Drivers, targets, ranges and selection stay if their names
+/// still exist, and held drivers keep their values; removing a motor removes its driver.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
                 LinkageRuntime& runtime);
@@ -244,20 +244,19 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
 void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
 /// A hinge's value plus whole turns: nearest to `other`, or within the link's range.
 double turned_near(double value, double other, const ik::Link& link);
-/// The link of a sketch bar, named after the bar or after the motor that turns it. None if the bar floats.
+/// The link of a sketch bar, named after the bar or the motor that turns it. None if the bar floats.
 std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,
                                        std::size_t bar);
-/// For each bar of a sketch, how many bars lie between it and the ground; ik::ground_link: it floats.
+/// For each bar of a sketch, the number of bars between it and the ground; ik::ground_link: it floats.
 std::vector<std::size_t> bars_from_ground(const ik::LinkageSketch& sketch);
 /// For each bar of a sketch, whether no pin and no guide reaches it, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
-/// Builds the shape of a sketch; floating bars are left out of the linkage. Throws std::invalid_argument if
+/// Builds the shape of a sketch; floating bars are not part of the linkage. Throws std::invalid_argument if
 /// the library refuses the sketch.
 LinkageShape shape_of(ik::LinkageSketch sketch);
 /// Builds the shape of a mechanism. Throws std::invalid_argument if the library refuses its lengths.
 LinkageShape shape_of(const Mechanism& mechanism);
-/// A walker's other legs, all in this state, each a few motor steps from its own pose; empty for other
-/// linkages.
+/// A walker's other legs in this state, each a few motor steps from its own pose; empty for other linkages.
 std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state);
 /// Opens a mechanism at rest; keeps the tool.
 void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime);

@@ -46,7 +46,7 @@ std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
                        .rocker = glm::length(way(part, loop.end, loop.pin))};
 }
 
-/// Whether the joint is a hinge in the plane without a range, so that all its turns look alike.
+/// True if the joint is a hinge in the plane without a range, so that all its turns look alike.
 bool goes_round(const LinkagePart& part, std::string_view joint) {
     if (!part.shape->in_plane() || !turns(part, joint)) return false;
     const ik::Link& link = part.linkage().links[*part.linkage().find_link(joint)];
@@ -172,7 +172,7 @@ double point_speed(const LinkagePart& part, std::string_view point, LinkageRunti
     if (!(quickest > 0.0)) return no_angle;
     constexpr double small_turn = 1e-3;  // radians; a motor reaches its value within 1e-6
     const double seconds = small_turn / quickest;
-    std::vector<glm::dvec3> ends;  // one of them at the end of a range
+    std::vector<glm::dvec3> ends;  // one joint is at the end of a range
     for (const double by : {-seconds, seconds}) {
         std::vector<ik::LinkDriver> drivers;
         for (const LinkageDrive& each : drives)
@@ -235,7 +235,7 @@ class BalancedBodies {
     /// The unbalanced part of the motor's torque; 1 if a joint is not in the sketch.
     double loose() const { return loose_; }
 
-    /// Two bars held by two joints each that balance, so are in line; or one such bar square to a guide.
+    /// Two bars with two joints each that balance, hence are in line; or one that is square to a guide.
     std::optional<DeadPoint> bars_in_line() const {
         for (const auto& [body, points] : at_)
             for (const auto& [joint, force] : points) {
@@ -254,7 +254,7 @@ class BalancedBodies {
             }
         return std::nullopt;
     }
-    /// Finds a body on which three forces balance, so that their lines meet.
+    /// Finds a body on which three forces balance, so their lines meet.
     std::optional<DeadPoint> forces_that_meet() const {
         for (const auto& [body, points] : at_) {
             if (points.size() != 3 || is_turned(body)) continue;
@@ -285,7 +285,7 @@ class BalancedBodies {
 
     std::size_t body_of(std::size_t link) const { return link == ik::ground_link ? link : body_[link]; }
     const std::string& name(std::size_t point) const { return sketch_.points[point].name; }
-    /// The sketch's point drawn at this position, preferably the one of that name.
+    /// The sketch's point drawn at this position, preferably the one with that name.
     std::optional<std::size_t> point_at(const glm::dvec3& drawn, const std::string& called) const {
         std::optional<std::size_t> found;
         for (std::size_t i = sketch_.points.size(); i-- > 0;)
@@ -326,7 +326,7 @@ class BalancedBodies {
             std::erase_if(points, [&](const auto& each) { return glm::length(each.second) <= minimum; });
     }
     bool is_turned(std::size_t body) const { return std::ranges::find(turned_, body) != turned_.end(); }
-    /// The other joint of a body that two joints hold.
+    /// The other joint of a body with two joints.
     std::optional<std::size_t> other_end(std::size_t body, std::size_t joint) const {
         const auto found = at_.find(body);
         if (found == at_.end() || found->second.size() != 2 || is_turned(body)) return std::nullopt;
@@ -350,7 +350,7 @@ class BalancedBodies {
     std::vector<glm::dvec3> forces_;
     double loose_ = 1.0;
     std::map<std::size_t, Forces> at_;     ///< by body
-    std::array<std::size_t, 3> turned_{};  ///< bodies under a torque too: the motor's two, and the ground
+    std::array<std::size_t, 3> turned_{};  ///< also under a torque: the motor's two, and the ground
 };
 
 }  // namespace

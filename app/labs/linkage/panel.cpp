@@ -31,7 +31,7 @@ std::string floats_text(const LinkageShape& shape) {
     return count_text(static_cast<std::size_t>(shape.loose.actual), "degree") + " of freedom in the plane.";
 }
 
-/// The next step in drawing a linkage by hand. Empty text: it is finished.
+/// The next step in drawing a linkage by hand. Empty text: nothing is missing.
 Verdict drawing_verdict(const LinkagePart& part) {
     const LinkageShape& shape = *part.shape;
     if (shape.sketch.bars.empty())
@@ -283,7 +283,7 @@ float lines_left() {
     return ImGui::GetContentRegionAvail().y / line - 0.2f;
 }
 
-/// Plots the number over the joint that leads the turn, beside the plot over time.
+/// Plots the number against the leading joint, beside the plot over time.
 void turn_plot(const Workspace& workspace, std::vector<Curve> curves, const std::string& unit) {
     const LinkagePart& part = linkage_part(workspace);
     auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);

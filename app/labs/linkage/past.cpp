@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// A motor's value, an angle counted on from the turn that the plot begins in.
+/// A motor's value; an angle continues from the turn in which the plot begins.
 PastCurve motor_curve(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
     const std::string joint = part.drives.empty() ? "" : part.drives.front().joint;
@@ -121,7 +121,7 @@ const LinkageTarget* target_of(const LinkagePart& part, const std::string& point
     return found == part.targets.end() ? nullptr : &*found;
 }
 
-/// The incident of a point that moved much further than the target it follows.
+/// The incident if a point moved much further than the target that it follows.
 std::optional<Incident> jump_incident(const LinkagePart& before, const LinkagePart& after) {
     constexpr double further = 3.0;
     const ik::LinkageReport& report = after.result.report;
@@ -149,7 +149,7 @@ const LinkageTarget* jumped_target(const LinkagePart& part) {
 
 namespace {
 
-/// Dead points, ranges, points that jumped, and bars that do not meet, between two ticks.
+/// Dead points, ends of ranges, points that jumped, and bars that do not meet, between two ticks.
 std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first, const Part& second) {
     using enum ik::LinkageStatus;
     const auto &before = part_as<LinkagePart>(first), &after = part_as<LinkagePart>(second);
@@ -161,7 +161,7 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
     if (moved)
         if (auto jump = jump_incident(before, after)) incidents.push_back(std::move(*jump));
     if (moved && is.passed_dead_point) {
-        constexpr double about_in_line = 20.0;  // degrees; wide, since it is a tick later
+        constexpr double about_in_line = 20.0;  // degrees; wide, since it is seen a tick later
         const std::string line = dead_point_reason(after, runtime, about_in_line);
         incidents.push_back({.kind = Incident::Kind::Limit,
                              .joint = 0,

@@ -50,7 +50,7 @@ ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<b
     return held;
 }
 
-/// Freedom of the floating bars: each piece with one point pinned is a linkage with two degrees less.
+/// Freedom of the floating bars: each piece, with one point pinned, is a linkage with two degrees less.
 ik::LinkageFreedom freedom_of_loose(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
     ik::LinkageFreedom all;
     std::vector<bool> left = floats;
@@ -70,7 +70,7 @@ ik::LinkageFreedom freedom_of_loose(const ik::LinkageSketch& sketch, const std::
     return all;
 }
 
-/// A leg's motor angle for the walker's motor at `angle`, or the reverse with `back`.
+/// Converts the walker's motor angle to a leg's or, with `back`, the reverse.
 double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
     if (back) return (copy.mirrored ? std::numbers::pi - angle : angle) - copy.phase;
     return copy.mirrored ? std::numbers::pi - angle - copy.phase : angle + copy.phase;
@@ -162,7 +162,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
     result.freedom = solver.freedom(part.state);
     result.active.assign(solver.active().begin(), solver.active().end());
     result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
-    // A running motor continues from its present value; held values stay as asked.
+    // A running motor continues from its present value; held values stay as set.
     for (LinkageDrive& each : part.drives)
         if (!each.held || each.rate != 0.0 || part.drag) each.value = part.value_of(each.joint);
     part.links.assign(solver.links().begin(), solver.links().end());
@@ -172,7 +172,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
         const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
         if (report.status <= result.report.status) continue;
-        // The worst leg's status counts, at the angle of the shared motor.
+        // The status is the worst leg's, at the angle of the shared motor.
         result.report.status = report.status;
         result.report.stopped = report.stopped;
         result.report.stopped_at = motor_of(each, report.stopped_at, true);
@@ -292,7 +292,7 @@ std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::Lin
     for (const ik::SketchMotor& motor : sketch.motors) {
         const auto link = linkage.find_link(motor.name);
         if (!link) continue;
-        // If a motor turns two bars against each other, a reversed axis makes `against` the child.
+        // If a motor turns two bars against each other, a reversed axis means that `against` is the child.
         const bool turned_round = motor.against != ik::ground_link && linkage.links[*link].axis.z < 0.0;
         if (bar == (turned_round ? motor.against : motor.bar)) return link;
     }
@@ -330,8 +330,8 @@ std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketc
            bar_direction(sketch.bars[bar], [&](std::size_t i) { return sketch.points[i].at; });
 }
 
-/// Takes the pose of another part of the same mechanism: in the plane its bars keep their directions, in
-/// space its joints keep their values. Solving then closes it.
+/// Uses the pose of another part of the same mechanism: in the plane its bars keep their directions, in space
+/// its joints keep their values. Solving then closes the loops.
 void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageState& state) {
     std::vector<double> turns(shape.linkage.links.size());
     const auto turn_of = [&](std::size_t link) { return link == ik::ground_link ? 0.0 : turns[link]; };

@@ -36,7 +36,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
     }
 }
 
-/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
+/// True if a bar, a motor or a sliding joint has this name: each of them becomes a link.
 bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
     const auto point = sketch.find_point(name);
     return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
@@ -102,7 +102,7 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
     sketch.bars.push_back({.name = name, .points = {from, to}});
 }
 
-/// Removes motors that push against the ground, at a joint that the ground no longer holds.
+/// Removes motors against the ground at a joint that the ground no longer holds.
 void remove_motors_at(LinkageSketch& sketch, std::size_t point) {
     std::erase_if(sketch.motors, [&](const ik::SketchMotor& each) {
         return each.point == point && each.against == ik::ground_link;
@@ -133,7 +133,7 @@ void move(LinkageSketch& sketch, const Arguments& given) {
     sketch.points[require_in_sketch(sketch, given.text("point"))].at = place_in_plane(given.json("to"), "to");
 }
 
-/// Makes a link a telescope: a slider inserted after it takes over everything at its far end.
+/// Makes a link a telescope: inserts a slider after it, which takes over everything at its far end.
 ik::Linkage with_telescope(ik::Linkage linkage, std::size_t link, const glm::dvec3& far) {
     const glm::dvec3 near = linkage.links[link].at;
     const std::size_t slider = link + 1;
@@ -164,7 +164,7 @@ bool has_motor(const LinkageSketch& sketch, std::size_t point, std::size_t bar, 
     });
 }
 
-/// The bar that a motor turns, and the bar it turns it against; of two, the second is nearer to the ground.
+/// The bar that a motor turns, and the bar that it turns against; the second is nearer to the ground.
 std::pair<std::size_t, std::size_t> motor_bars(const LinkageSketch& sketch, std::size_t point,
                                                const Arguments& given) {
     const std::string& at = sketch.points[point].name;
@@ -228,7 +228,7 @@ void remove_bar_or_joint(LinkageSketch& sketch, const Arguments& given) {
         require_ok(ik::remove_bar(sketch, require_bar(sketch, given.text("bar"))));
 }
 
-/// Reports if a mechanism loses its named lengths.
+/// Reports when a mechanism loses its named lengths.
 void edit_by_hand(Workspace& workspace, const auto& change) {
     const MechanismKind* const was = kind_of(linkage_part(workspace).shape->mechanism);
     change_part<LinkagePart>(workspace, linkage_lab, change);

@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr int turn_steps = 120;  ///< at least, per turn or along a slider's travel
+constexpr int turn_steps = 120;  ///< minimum, per turn or along a slider's travel
 
 LinkageTurn::Pose pose_of(const ik::LinkageSolver& solver, const ik::LinkageState& state, std::size_t joint) {
     LinkageTurn::Pose pose{.value = state.joints[joint].value};
@@ -21,11 +21,11 @@ LinkageTurn::Pose pose_of(const ik::LinkageSolver& solver, const ik::LinkageStat
     return pose;
 }
 
-/// Drives the joint from the present pose by `far` or until it cannot go on. Takes shorter steps where a
+/// Drives the joint from the present pose by `far`, or until it cannot continue. Takes shorter steps where a
 /// point moves fast, as next to a dead point.
 std::vector<LinkageTurn::Pose> swept(ik::LinkageSolver& solver, ik::LinkageState state, std::size_t joint,
                                      double far) {
-    constexpr std::size_t max_poses = 4000;  // in every step by every point: more than any that was seen
+    constexpr std::size_t max_poses = 4000;  // bounds the work; no real turn has needed that many
     constexpr double max_move = 0.02;        // of the linkage's size: some 15 pixels of a view that it fills
     const double step = far / turn_steps, min_step = std::abs(step) / 4096.0;
     std::vector<LinkageTurn::Pose> poses;
@@ -60,13 +60,13 @@ std::vector<LinkageTurn::Pose> swept(ik::LinkageSolver& solver, ik::LinkageState
     return poses;
 }
 
-/// Whether a pose lies between two neighbours of the turn. Compares joint values, since the paths of two
+/// True if a pose lies between two neighbours of the turn. Compares joint values, since the paths of two
 /// assembly modes may cross.
 bool is_on(const LinkageTurn& turn, const ik::LinkageState& state, const ik::Linkage& linkage, double size) {
     const auto between = [&](const LinkageTurn::Pose& a, const LinkageTurn::Pose& b) {
         for (std::size_t i = 0; i < linkage.links.size(); ++i) {
             const bool hinge = linkage.links[i].joint == ik::LinkJoint::Hinge;
-            // What a value goes beyond two neighbours; next to a dead point, two modes differ as little.
+            // Tolerance of a value beyond two neighbours; next to a dead point, two modes differ by no more.
             const double margin = hinge ? 0.005 : 0.0025 * size;
             const auto from_a = [&](double value) {
                 const double by = value - a.joints[i];
@@ -144,14 +144,14 @@ std::vector<PathPoint> LinkageRuntime::path(const LinkagePart& part) {
 
 namespace {
 
-/// The row of a preset's lengths that sets its crank; null for a linkage drawn by hand.
+/// The field of a preset's length that sets its crank; null for a linkage drawn by hand.
 const Field* crank_field(const LinkagePart& part, const ik::SketchMotor& motor) {
     for (const Field& each : mechanism_fields(part.shape->mechanism).table)
         if (file_name(each) == part.shape->sketch.bars[motor.bar].name) return &each;
     return nullptr;
 }
 
-/// Whether the motor turns all the way round with a crank of this length, set as a command does.
+/// True if the motor turns all the way round with a crank of this length, set as a command does.
 bool goes_round(LinkagePart part, const ik::SketchMotor& motor, double crank) {
     LinkageRuntime runtime;
     try {
@@ -179,7 +179,7 @@ std::optional<RoundCrank> shorter_round_crank(const LinkagePart& part, const ik:
         (preset && crank_field(part, motor) == nullptr))
         return std::nullopt;
     const double now = glm::distance(part.at(bar.points[0]), part.at(bar.points[1]));
-    constexpr int parts = 20;  // the lengths that are tried: coarse, then halved to a thousandth
+    constexpr int parts = 20;  // the lengths tried: coarse, then halved to a thousandth
     for (int i = parts - 1; i > 0; --i) {
         RoundCrank crank{now * i / parts, now * i / parts};
         if (!goes_round(part, motor, crank.length)) continue;

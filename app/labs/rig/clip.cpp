@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-// Rig::work's steps, of about 30 ns each.
+// Limits in Rig::work's steps, of about 30 ns each.
 constexpr std::uint64_t max_record_work = 40'000'000, max_frame_work = 20'000'000,
                         clip_work_per_tick = 300'000;
 constexpr std::size_t max_frames_per_tick = 16;
@@ -55,7 +55,7 @@ rig::Transform widened(const ClipPose& pose) {
     return {glm::dvec3(pose.translation), rig::normalised(glm::dquat(pose.rotation)), glm::dvec3(pose.scale)};
 }
 
-/// Holds the poses within the limits. Returns the first bone that is over them; null if none is.
+/// Clamps the poses to the limits. Returns the first bone beyond them; null if there is none.
 const ClipBone* append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bones,
                              rig::Hierarchy tree) {
     const ClipBone* over = nullptr;
@@ -298,7 +298,7 @@ std::string name_of(const signal::FrameRate& rate) {
     return std::to_string(std::lround(rate.hz)) + (rate.jittered ? " Hz uneven" : " Hz");
 }
 
-/// Updates `most` and `farthest`. Returns whether a bone is farther apart than any before.
+/// Updates `most` and `farthest`. Returns whether a bone is farther apart than ever before.
 bool compare(const rig::Rig& rig, rig::State& a, rig::State& b, double seconds, RateDifference& most,
              double& farthest) {
     bool farther = false;

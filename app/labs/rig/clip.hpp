@@ -18,7 +18,7 @@ std::string seconds_text(std::size_t ticks);  ///< "12.3 s"
 /// The most ticks that fit in a clip of this rig; 0 if it has no bones.
 std::size_t clip_room(const RigPart& part);
 /// Keeps the end of the first `ticks` ticks of `played` as the part's clip, as much as fits, and ends a
-/// recording. Returns what the clip lacks; empty if nothing. Throws what check_records would throw.
+/// recording. Returns which part is missing; empty if none is. Throws as check_records does.
 std::string keep_clip(RigPart& part, RigPart played, std::size_t ticks, RigRuntime& runtime);
 
 /// The rig's bones and the clip, as the writers of files take them. Throws std::invalid_argument if there is
@@ -31,7 +31,7 @@ std::string sheared_text(const Character& character);
 /// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones differ
 /// from the rig's, or if a single frame would take too long.
 void start_clip_solve(RigPart& part);
-/// Throws what start_clip_solve would throw.
+/// Throws as start_clip_solve does.
 void check_clip_solve(const RigPart& part);
 /// Solves the frames that fit in one tick. Counts work instead of time, so results are reproducible.
 void continue_clip_solve(RigPart& part, rig::Workspace& scratch);
@@ -48,7 +48,7 @@ double amount(const FrameLeft& left);  ///< the same measure as for a residual
 /// "12.3 mm, 8.1 degrees", followed by ", scale 0.250" if that is large enough to show
 std::string left_text(double mm, double degrees, double scale);
 
-// Plays the take at all usual frame rates and measures how far apart its bones come.
+// Plays the take at all usual frame rates and measures how far apart its bones get.
 //
 // Each rate samples the controls at the ends of its own frames, as a game at that rate would. The takes are
 // compared at the end of each frame of the slowest rate. Each tick processes only a few of those frames, so

@@ -238,7 +238,7 @@ class ControlDrawing {
         }
     }
 
-    /// Encloses the head of a child bone at the same position.
+    /// Large enough to enclose the head of a child bone at the same position.
     float cube_size() const {
         float size = size_;
         const rig::ElementId id = p_.part.rig.id(i_);
@@ -257,7 +257,7 @@ class ControlDrawing {
         };
         twelve_edges(corner,
                      [&](glm::vec3 a, glm::vec3 b, glm::vec3, int) { line(a, b, width(), colour()); });
-        if (half > size_) {  // do not hide the contents, but let the middle be grabbed
+        if (half > size_) {  // leave the contents visible, but let the middle be grabbed
             Stroke& grip = p_.list.sphere(at_, p_.px(14.0f), Unit::Pixels, catch_only);
             grip.pick = pick_;
             grip.rank = 3;
@@ -352,7 +352,7 @@ class ControlDrawing {
         const float stop = p_.at_least(0.05f, 5.0f, middle);
         const auto reached = [&](double end) { return limit_ && std::abs(knob_at - end) < 1e-9; };
         line(on(-half), on(half), 3.0f, pale());
-        // From 0, or from the end nearest to it, to the knob: shows the amount.
+        // From 0 to the knob, or from the end nearest to 0: shows the amount.
         const double zero = rail.place(std::clamp(0.0, rail.low, rail.high));
         line(on(zero), on(knob_at), 4.0f, colour());
         for (const double side : {-1.0, 1.0}) {
@@ -455,7 +455,7 @@ class ControlDrawing {
         if (kind == rig::ControlKind::Float && !shape_.control().minimum && !shape_.control().maximum)
             text += ", no limits";
         if (limit_) text += ", at its limit";
-        // Beside the shape, and clear of the gizmo.
+        // Beside the shape, clear of the gizmo.
         glm::vec3 at = at_;
         if (kind == rig::ControlKind::Float) at = on_rail(0.5 * Rail::length);
         if (kind == rig::ControlKind::Vector2d) at = corner_of_rectangle();

@@ -1,5 +1,5 @@
-// The drawing of controls, and the values that drags give them: the rail of a float, the rectangle of a
-// vector2d, the box of a control with a position. Poses here are double; drawing converts them to float.
+// The drawing of controls, and values from drags: the rail of a float, the rectangle of a vector2d, the box
+// of a control with a position. Poses here are double; drawing converts them to float.
 #pragma once
 
 #include <cstddef>
@@ -45,10 +45,10 @@ class ControlShape {
     /// Global pose of the middle of the rail, which lies along x.
     const rig::Transform& rail_pose() const { return now_; }
 
-    /// Whether a component of the value is at the end of its range, other than by its initial value.
+    /// True if a component of the value is at the end of its range, other than by its initial value.
     bool at_limit() const;
     Drag drag() const;
-    /// The gizmo part that dragging the knob corresponds to.
+    /// The gizmo part that acts like a drag of the knob.
     std::optional<GizmoPart> part() const;
     /// The value that moves the control to `to`. Ignores members that equal those of `from`.
     Json value_at(const HandleFrame& from, const HandleFrame& to) const;

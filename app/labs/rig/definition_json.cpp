@@ -12,7 +12,7 @@ namespace {
 /// The members of a unit's curve, which older files and commands have beside its other inputs.
 constexpr const char* curve_members[] = {"keys", "source_min", "source_max", "target_min", "target_max"};
 
-// Convert the notations of commands and older files to the tables' own. Errors stay, for the tables to
+// Convert the notations of commands and older files to the tables' own. Errors are left for the tables to
 // refuse.
 
 /// A control without a kind is a transform control. Its parent may be called "space".
@@ -29,7 +29,7 @@ Json full_element(Json element, const JsonPlace& place) {
     return element;
 }
 
-/// The unit with its curve in one member, and those in its body likewise.
+/// The unit with its curve in one member; also in its body.
 Json full_unit(Json unit) {
     if (!unit.is_object()) return unit;
     for (const char* each : curve_members)

@@ -5,7 +5,7 @@
 //      "curves": [{"name", "value"}],
 //      "units": [{"unit", "name", ...}]}
 //
-// Readers throw std::runtime_error that begins with the JSON path. Rig::make later reports the errors that
+// Readers throw std::runtime_error that begins with the JSON path. Rig::make later reports errors that
 // involve several parts of the definition.
 #pragma once
 
@@ -30,7 +30,7 @@ rig::Definition read_definition(const JsonPlace& place);
 
 /// Omitted inputs keep the operation's default; an omitted name stays empty.
 rig::Unit read_unit(const JsonPlace& place);
-/// Omitted members keep their value, also inside "primary", "secondary" and "filter".
+/// Omitted members keep their value, also within "primary", "secondary" and "filter".
 void edit_unit(const JsonPlace& place, rig::Unit& unit, bool edit = true);
 
 /// Names each unit without a name after its operation, avoiding those in `taken`: "aim", "aim 2".
@@ -40,7 +40,7 @@ void collect_names(const rig::Units& units, std::set<std::string>& names);
 
 /// The unit types that commands accept: "aim", ..., in the order of rig::Operation.
 std::vector<std::string> operation_names();
-/// Every member that any operation has, without duplicates; excludes "unit" and "name".
+/// Each member that any operation has, once; excludes "unit" and "name".
 std::vector<std::string> unit_members();
 
 }  // namespace tendril::app

@@ -30,7 +30,7 @@ constexpr std::size_t max_labels = 2000;
 constexpr float gizmo_clearance = 84.0f;  ///< keeps a name clear of the gizmo
 constexpr const char* before_units = "before any unit";
 
-/// Whether units move an element away from its input pose, which its gizmo sets.
+/// True if units move an element away from its input pose, which its gizmo sets.
 bool starts_elsewhere(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
     const rig::ElementId id = part.rig.id(i);
     if (elements.kind(id) == rig::ElementKind::Control) return false;
@@ -135,7 +135,7 @@ class Drawing {
         p_.list.ring(at, clear + p_.px(4.0f), width, paint).layer = Layer::Overlay;
     }
 
-    /// Draws the curves that splines follow, with their points as they are after the last unit.
+    /// Draws the curves that splines follow, with their points after the last unit.
     void curves() {
         for (const UnitRow& row : unit_rows(p_.part)) {
             const auto* spline = std::get_if<rig::Spline>(&row.unit->operation);
@@ -164,7 +164,7 @@ class Drawing {
         }
     }
 
-    /// Marks the stored state; the drawing itself uses a copy with nothing pending.
+    /// Marks the stored state; everything else is drawn from a copy with nothing pending.
     void pending(std::size_t i) {
         const rig::Pending what = p_.part.state->elements.pending(p_.part.rig.id(i));
         if (what == rig::Pending::None) return;
@@ -190,7 +190,7 @@ class Drawing {
         if (lies_elsewhere(i))
             p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
     }
-    /// At different positions, so that there is room for two names; not merely rotated.
+    /// At a different position, not merely rotated: there is room for two names.
     bool lies_elsewhere(std::size_t i) const { return glm::distance(start_of(i), p_.point(i)) > 1e-4f; }
     glm::vec3 start_of(std::size_t i) const {
         return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
@@ -343,7 +343,7 @@ double bone_size(const rig::Hierarchy& elements, rig::ElementId bone) {
 }
 
 double head_radius(const rig::Hierarchy& elements, rig::ElementId bone) {
-    // Anything that turns with the bone keeps its distance, so turning the head does not change its size.
+    // Elements that turn with the bone keep their distance, so turning the head does not change its size.
     const double scale = mean_scale(*elements.known(bone, rig::Space::Global));
     return scale > 1e-9 ? 0.8 * bone_size(elements, bone) / scale : 0.0;
 }
@@ -374,7 +374,7 @@ Face face_of(const RigPart& part) {
 
 void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, const Face& face,
                glm::vec3 colour, PickId pick) {
-    // On the light theme's dark joints the face would be lost.
+    // On the light theme's dark joints the face would be invisible.
     if (view.palette.theme == Theme::Light) colour = glm::mix(colour, glm::vec3(1.0f), 0.5f);
     const auto size = static_cast<float>(radius);
     globe(
@@ -399,13 +399,13 @@ void draw_head(const View& view, DrawList& list, const rig::Transform& pose, dou
               placed(pose, size * glm::vec3(0.0f, -0.12f, 1.06f)), 0.07f * scale, 0.12f * scale,
               glm::vec4(skin, 1.0f))
         .pick = pick;
-    if (face.blink > 0.0f) {  // a lid comes down over each eye, from inside the head
+    if (face.blink > 0.0f) {  // a lid closes over each eye, from inside the head
         const glm::vec3 lid = glm::mix(colour, skin, 0.35f);
         const float up = 1.0f - face.blink;
         for (const float side : {-1.0f, 1.0f})
             ball({0.335f * side, 0.17f + 0.13f * up, 0.8f - 0.1f * up}, 0.215f - 0.02f * up, lid);
     }
-    // The mouth: the upper lip, and the lower one that opens it.
+    // The mouth: the upper lip, and the lower lip that opens it.
     const auto on_face = [&](float across, float y) {
         const float chin = 0.16f * -y;
         const float front = (0.94f - chin) * std::sqrt((1.0f - y * y) * (1.0f - across * across));

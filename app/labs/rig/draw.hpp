@@ -12,9 +12,9 @@
 
 namespace tendril::app {
 
-// Additions to the poses: lengths of bones, and figures. A bone named "head" or "skull" is drawn as a head
-// facing along z, with lids and mouth moved by the curves "blink" and "mouth"; a null named "blob" as a blob,
-// if there are curves "stretch", "bulge" and "hue".
+// Figures drawn over the poses. A bone named "head" or "skull" is drawn as a head facing along z, with lids
+// and mouth moved by the curves "blink" and "mouth"; a null named "blob" as a blob, if there are curves
+// "stretch", "bulge" and "hue".
 
 // Each element has its own pick id, and a rotation control one for each of its rings.
 constexpr PickId element_pick(std::size_t element, int ring = -1) {
@@ -30,7 +30,7 @@ constexpr int picked_ring(PickId pick) {
 enum class Figure : std::uint8_t { None, Head, Blob };
 Figure figure_of(const RigPart& part, std::size_t element);
 
-/// Global end points of a bone: its child bones, or if it has none, a point a short way beyond it.
+/// Global end points of a bone: its child bones or, if it has none, a point a short way beyond it.
 std::vector<glm::dvec3> bone_ends(const rig::Hierarchy& elements, rig::ElementId bone);
 /// The mean distance to those end points, metres.
 double bone_size(const rig::Hierarchy& elements, rig::ElementId bone);
@@ -42,7 +42,7 @@ double head_radius(const rig::Hierarchy& elements, rig::ElementId bone);
 Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::size_t element);
 
 // Drawn solid in palette colours, with the pick id of the element.
-/// A face's state, 0 to 1: the rig's curves "blink" and "mouth", where they exist.
+// / A face's state, 0 to 1: the rig's curves "blink" and "mouth", if they exist.
 struct Face {
     float blink = 0.0f;  ///< 1: the lids are closed
     float mouth = 0.0f;  ///< 1: wide open

@@ -109,7 +109,7 @@ std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValu
     return values;
 }
 
-/// Sets values. Skips a control that already has its value: units may have moved it since.
+/// Sets values. Skips a control that already has its value, since units may have moved it.
 void set_values(RigPart& part, std::vector<ControlValue> values) {
     constexpr std::size_t max_keys_at_once = 64;  // each one copies all keys
     values = differing(part, std::move(values));
@@ -132,7 +132,7 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     for (const ControlValue& each : values) key_control(part, each.element);
 }
 
-/// An end that is null is removed; one that is omitted stays. Values stay, within the new limits.
+/// A null end is removed; an omitted one stays. Values stay, within the new limits.
 void set_limits(RigPart& part, const Arguments& given) {
     rig::Definition definition = part.rig.definition();
     std::vector<ControlValue> values;
@@ -288,7 +288,7 @@ Argument unit_name_argument(bool required) {
     return unit_argument("name", required, "of the unit");
 }
 
-/// Adds a unit. Every member but "at" and "into" belongs to the unit, as in a scene file.
+/// Adds a unit. Every member except "at" and "into" belongs to the unit, as in a scene file.
 void add(RigPart& part, const Arguments& given) {
     Json unit = given.json();
     unit.erase("at");

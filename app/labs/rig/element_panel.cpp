@@ -20,7 +20,7 @@ struct Row {
     int depth;
 };
 
-/// Depth first. With a filter, the matching rows without indentation.
+/// Depth first; with a filter, only matching rows, without indentation.
 std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::string_view filter) {
     const std::vector<rig::Element>& elements = part.rig.definition().elements;
     std::vector<Row> rows;
@@ -175,7 +175,7 @@ void add_element_menu(const RigPanel& panel) {
 }  // namespace
 
 void element_tree(const RigPanel& panel) {
-    // Above the list, whose length they change.
+    // Above the list, because they change its length.
     add_element_menu(panel);
     const Selection& selected = panel.part.selected.elements;
     if (row_button(
@@ -294,7 +294,7 @@ class ControlFields {
         reading("limits", "%s", limits_text(control_).c_str());
         explain("A drag stops at them.");
     }
-    /// A switch for each end, and the end itself. Without one, it starts where the control is.
+    /// A switch for each end, and the end itself. A new end starts at the control's value.
     void edit_limits() const {
         edit_limit("minimum", control_.minimum, low());
         edit_limit("maximum", control_.maximum, high());
@@ -359,7 +359,7 @@ class ControlFields {
     const std::vector<std::size_t>& alike_;
 };
 
-/// Resets all selected controls, of whatever kind.
+/// Resets all selected controls of any kind.
 void reset_button(const RigPanel& panel) {
     const RigPart& part = panel.part;
     std::vector<std::size_t> controls;

@@ -26,7 +26,7 @@ struct Moved {
     rig::Transform from{}, to{};
     double share = 0.0;  ///< the changed fraction of its range; 1 for a toggled switch
 
-    /// The angle is seen from the bone, which may move; the distance is the control's own.
+    /// The angle is relative to the bone, which may move; the distance is the control's own.
     InputMove seen_from(const rig::Transform& was, const rig::Transform& is) const {
         InputMove move;
         if (placed)
@@ -77,7 +77,7 @@ double skeleton_size(const rig::Rig& rig, rig::State& state) {
     return size > 0.0 ? size : 1.0;
 }
 
-/// Without causes. The largest rotation first; among equals, the bone nearest the root first.
+/// Finds flips, without causes. The largest rotation first; among equals, the bone nearest the root.
 std::vector<RigFlip> find_flips(const rig::Rig& rig, const rig::State& was, const rig::State& is,
                                 const FlipRule& rule) {
     rig::State before = was, after = is;  // copies: reading computes pending poses
@@ -105,7 +105,7 @@ std::vector<RigFlip> find_flips(const rig::Rig& rig, const rig::State& was, cons
 
 constexpr const char* not_known = "cause not known";
 
-/// The part of a solve with a zero time step that shows why bones flipped.
+/// Observes a solve with a zero time step to find why bones flipped.
 class Watched final : public rig::Observer {
   public:
     /// Keeps the rig just before and just after `unit`, if one is given.
@@ -148,7 +148,7 @@ class Watched final : public rig::Observer {
     std::optional<std::size_t> unit_;
 };
 
-// Causes that can suddenly rotate a bone, by kind of unit.
+// Reasons for a bone's sudden rotation, by kind of unit.
 
 using Cause = std::optional<std::string>;
 constexpr float close_by = 0.17f;  ///< radians, about ten degrees
@@ -233,7 +233,7 @@ Cause by_input(const Both& both) {
     return std::nullopt;
 }
 
-/// At half a turn no direction is the shortest: near it the axis of rotation can swing round, and the bone
+/// At half a turn there is no shortest direction: near it the axis of rotation can swing round, and the bone
 /// rotates with it, by twice as much.
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
     const float furthest = std::max(ik::angle_between(from_was, to_was), ik::angle_between(from_is, to_is));
@@ -272,7 +272,7 @@ Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& 
         const ik::PolePassage passage = ik::pole_passage(before, after);
         if (passage.passed) return "the second target crossed the line to the first";
         if (passage.close) return "the second target came close to the line to the first";
-        return std::nullopt;  // the second target fixes the roll, so no half turn is involved
+        return std::nullopt;  // the second target fixes the roll, so half turns do not matter
     }
     return by_half_turn(glm::vec3(was.rotation * glm::dvec3(*axis_was)), *first_was,
                         glm::vec3(is.rotation * glm::dvec3(*axis_is)), *first_is, both.radians);
@@ -303,7 +303,7 @@ std::optional<ik::ReachPose> reach_pose(const Given& given, const RigPart& found
                                         const rig::Item& root, const rig::Item& tip) {
     const auto target = given.point("/target");
     ik::ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
-    // Uses the joints after the unit ran, which show how the chain is bent.
+    // Use the joints after the unit ran, which show how the chain is bent.
     if (!target || pose.joints.empty() || joints_between(found, root, tip).empty()) return std::nullopt;
     pose.target = *target;
     return pose;
@@ -331,7 +331,7 @@ Cause by_kind(const Both& both) {
     return std::nullopt;
 }
 
-/// In this unit.
+/// The cause in this unit.
 Cause unit_cause(const Both& both) {
     for (const auto& look : {by_report, by_switch, by_kind, by_input})
         if (Cause cause = look(both)) return cause;

@@ -1,4 +1,4 @@
-// Finds the bones that jumped from one solve to the next although no control moved far, and why.
+// Finds bones that jumped from one solve to the next although no control moved far, and why.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ namespace {
 /// With more elements than this, only controls are handles.
 constexpr std::size_t max_elements_with_handles = 400;
 
-/// Selecting elements keeps the unit selected.
+/// Adds the selected unit, so that selecting elements keeps it selected.
 ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
     if (!part.selected.unit.empty()) arguments.push_back({"unit", part.selected.unit});
     return arguments;
@@ -39,7 +39,7 @@ const rig::Hierarchy& elements_of(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
 }
 
-/// Whether the rig still has the element.
+/// True if the rig still has the element.
 bool is_there(const RigPart& part, PickId pick) {
     return pick >= 0 && picked_element(pick) < part.state->controls.size();
 }
@@ -99,7 +99,7 @@ std::optional<Handle> RigLab::handle(const Workspace& workspace, PickId pick) co
     return handle;
 }
 
-/// A drag also solves while the simulation is paused, because no tick does.
+/// A drag also solves while the simulation is paused, when no tick does.
 void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const {
     const RigPart& part = rig_part(workspace);
     if (!is_there(part, pick)) return;
@@ -313,7 +313,7 @@ void RigLab::drag_together(const Workspace& workspace, const std::vector<Handle>
     Json controls = Json::array(), values = Json::array(), others = Json::array(), transforms = Json::array();
     for (const Handle& each : handles) {
         const std::size_t i = picked_element(each.pick);
-        // The element may be gone: a drag can be undone while it lasts.
+        // The element may be gone: undo works during a drag.
         if (!is_there(part, each.pick) || part.rig.definition().elements[i].name != each.name) continue;
         const Handle now = gizmo_handle(workspace, i);
         HandleFrame to = now.frame;
@@ -338,7 +338,7 @@ void RigLab::drag_together(const Workspace& workspace, const std::vector<Handle>
     if (!workspace.clock.playing) emit.continuously("rig.solve", {});
 }
 
-/// Also deselects a unit that is selected alone, which a click on nothing does not.
+/// Also deselects a unit that is selected alone; a click on empty space does not.
 void RigLab::deselect(const Workspace& workspace, Emit& emit) const {
     const RigSelection& selected = rig_part(workspace).selected;
     if (!selected.elements.empty() || !selected.unit.empty()) emit("rig.select");

@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// The data that a section reads.
+/// The inputs of a section.
 struct RigPanel {
     const Workspace& workspace;
     const RigPart& part;
@@ -44,14 +44,14 @@ void pose_rows(const RigPanel& panel);
 void control_rows(const RigPanel& panel);
 /// The selected elements that a field edits: controls of the active one's kind, or all bones and nulls.
 std::vector<std::size_t> selected_alike(const RigPart& part);
-/// States how many elements a field edits, if several are selected. `what` names them: "position controls".
+/// Says how many elements a field edits, if several are selected. `what` names them: "position controls".
 void scope_note(const RigPart& part, std::size_t alike, const std::string& what);
-/// The contribution of each unit to the active element.
+/// Each unit's contribution to the active element.
 void why_rows(const RigPanel& panel);
 /// The selected unit: fields for its literals, current values for other inputs.
 void unit_inspector(const RigPanel& panel);
 
-/// Why a unit, or a part of it, was skipped; draws nothing if it was not.
+/// Why a unit, or part of it, was skipped; draws nothing if it was not.
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin = 0.0f);
 
 /// The name of an element or a unit; Enter renames it by that command.
@@ -64,7 +64,7 @@ NamedArgument which(const RigPart& part, const std::vector<std::size_t>& element
 void select_element(const RigPanel& panel, const std::string& name);
 void select_unit(const RigPanel& panel, const std::string& name);
 
-/// The edited vector, but components that were not edited keep their double precision.
+/// The edited vector; components that were not edited keep their double precision.
 glm::dvec3 edited_vector(const glm::dvec3& before, glm::vec3 shown, glm::vec3 edited);
 
 /// A field for a rotation, as Euler angles. Returns true in frames in which the user changed it.

@@ -1,5 +1,5 @@
 // The Rig lab's last ten seconds: plots of an element's rotation, relative to its parent and initial pose;
-// earlier poses; incidents, and the contribution of each unit to an element.
+// earlier poses; incidents; and each unit's contribution to an element.
 #include "app/labs/kit/past.hpp"
 
 #include <imgui.h>
@@ -41,8 +41,8 @@ std::string plotted_element(const RigPart& part) {
     return first != nullptr ? first->name : std::string();
 }
 
-/// The direction in which a bone is drawn at rest, in its own frame: towards its child bones, else away from
-/// its parent bone, else up.
+/// The direction in which a bone is drawn at rest, in its own frame: towards its child bones; without any,
+/// away from its parent bone; without that, up.
 glm::dvec3 direction(const rig::Definition& definition, const rig::Element& bone) {
     glm::dvec3 sum(0.0);
     for (const rig::Element& each : definition.elements)
@@ -63,7 +63,7 @@ glm::dquat local_rotation(const rig::Hierarchy& elements, rig::ElementId id) {
     return resolved.get(id, rig::Space::Local).rotation;
 }
 
-/// The element's rotation within its parent, from its initial pose; only bones have one, unless `any`.
+/// The element's rotation relative to its parent, from its initial pose; only for bones, unless `any`.
 std::optional<JointTurn> turn_of(const RigPart& part, const std::string& name, bool any) {
     const auto at = part.rig.element(name);
     if (!at) return std::nullopt;
@@ -164,7 +164,7 @@ std::string limit_text(const rig::Control& control, int axis, bool maximum) {
     return text + " m along " + std::array{"x", "y", "z"}[static_cast<std::size_t>(along)];
 }
 
-/// Whether one of its numbers is at its limit. An empty range has no limits.
+/// True if one of its numbers is at its limit. An empty range has no limits.
 bool at_limit(const rig::Control& control, const rig::Value& value, int axis, bool maximum) {
     const auto& limit = maximum ? control.maximum : control.minimum;
     if (!limit) return false;
@@ -196,8 +196,8 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
     }
 }
 
-/// Flips, unit warnings, controls at their limits. Flips are reported only between two solves with nothing
-/// but controls set in between, and only the bone that rotated furthest for each unit.
+/// Flips, unit warnings, controls at their limits. Flips are reported only between two solves between which
+/// only controls were set, and only the bone that rotated furthest for each unit.
 std::vector<Incident> incidents_of(const Workspace&, const Part& was, const Part& is) {
     const auto &before = part_as<RigPart>(was), &after = part_as<RigPart>(is);
     if (&before.rig.definition() != &after.rig.definition()) return {};
@@ -230,7 +230,7 @@ const Past& rig_past() {
     return past;
 }
 
-// Why a bone is where it is: the contribution of each unit to the selected element, in order.
+// Why a bone is where it is: each unit's contribution to the selected element, in order.
 
 namespace {
 

@@ -55,7 +55,7 @@ std::size_t visits(const rig::Rig& rig, const rig::State& rest, const rig::ForEa
     return count;
 }
 
-/// Refuses rigs that would run too long, before making them: a line of a file can ask for millions of runs.
+/// Refuses rigs that would run too long before making them: one line of a file can request millions of runs.
 void check_runs(const rig::Definition& definition) {
     const auto is_loop = [](const rig::Unit& unit) {
         return std::holds_alternative<rig::ForEach>(unit.operation);
@@ -195,7 +195,7 @@ std::string on_other_side(const std::string& name) {
            std::string(found[word].second, name.end());
 }
 
-/// Which number of the control's value changes sign in a mirror.
+/// The number of the control's value that changes sign in a mirror.
 std::optional<int> number_along_x(const rig::Control& control) {
     using Kind = rig::ControlKind;
     if (control.kind == Kind::Vector2d)
@@ -346,8 +346,8 @@ std::size_t curve_named(const RigPart& part, const std::string& name) {
 
 namespace {
 
-/// Calls `take(unit, member, kind, name)` for every name that units refer to, bodies included. The names can
-/// be changed; those of inputs are then set.
+/// Calls `take(unit, member, kind, name)` for every name that units refer to, including bodies. `take` may
+/// change the names; those of inputs are then set.
 template <class Take>
 class UsedNames {
   public:
@@ -423,11 +423,11 @@ namespace {
 
 using Copies = std::map<std::string, std::string>;
 
-/// Rewrites a unit for the other side: its names and its literals. The flags describe the last one rewritten.
+/// Rewrites a unit for the other side: its names and literals. The flags describe the last rewritten unit.
 struct OtherSide {
     const Copies &elements, &units;
     const RigPart& part;
-    rig::Transform plane;                      ///< across its x: the branch's parent at rest, in global space
+    rig::Transform plane;                      ///< mirror plane: across the x of the branch's parent at rest
     mutable bool names = false, sets = false;  ///< elements of the branch
     mutable bool sets_outside = false, counts = false;  ///< other elements; the elements of a for-each
 
@@ -463,7 +463,7 @@ struct OtherSide {
         const auto across = [&](const rig::Transform& pose) {
             return space ? rig::compose(*space, mirrored(rig::relative(*space, pose))) : mirrored(pose);
         };
-        // A force on a rotation is an axis to turn about.
+        // A force on a rotation is a rotation axis.
         const bool turns =
             place == "force" && part.state->units[unit_row(part, unit.name)->at].outputs[0].index() ==
                                     static_cast<std::size_t>(rig::Type::Rotation);
@@ -475,8 +475,8 @@ struct OtherSide {
     }
 
   private:
-    /// Where a literal is mirrored: across the rest plane if it is in global space; none if its space is
-    /// mirrored with it, such as the item's own.
+    /// The plane that mirrors a literal: the rest plane in global space; none if its space is mirrored with
+    /// it, such as the item's own.
     std::optional<rig::Transform> space_of(const rig::Operation& operation, const std::string& place) const {
         using Space = std::optional<rig::Transform>;
         const rig::Transform directions{.rotation = plane.rotation};
@@ -499,8 +499,8 @@ struct OtherSide {
 };
 
 /// Copies the units that set the branch, and the units that only these use, each after its original. A unit
-/// that the mirror leaves as it is serves both sides. So does a for-each, unless its body changes, or it
-/// counts the elements of the branch alone.
+/// that the mirror leaves unchanged serves both sides. So does a for-each, unless its body changes, or it
+/// counts only elements of the branch.
 void mirror_units(rig::Units& units, const RigPart& part, const Copies& elements,
                   const rig::Transform& plane) {
     Copies copies;

@@ -62,7 +62,7 @@ BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& defini
     return left;
 }
 
-/// "element" is the active one; "elements" lists all, if several are selected.
+/// "element" is the active one; "elements" lists all if several are selected.
 Selection load_elements(const JsonPlace& place, const rig::Rig& rig) {
     const auto active = rig.element(place["element"].text());
     const auto several = place.optional("elements");
@@ -209,7 +209,7 @@ RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigP
     return walk;
 }
 
-/// A running comparison must have the number of frames that its ticks give.
+/// A running comparison must have as many frames as its ticks imply.
 RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
     RateDifference rates;
     load_known_fields(place,
@@ -290,7 +290,7 @@ Json track_json(const Numbers& numbers, std::size_t size) {
     return json;
 }
 
-/// Reads `size` numbers per frame. Given once, they hold for all frames.
+/// Reads `size` numbers per frame. A single row holds for all frames.
 Numbers read_track(const JsonPlace& place, std::size_t size, std::size_t frames) {
     Numbers numbers;
     place.for_each("numbers", size * frames,

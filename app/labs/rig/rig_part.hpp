@@ -24,8 +24,8 @@
 
 namespace tendril::app {
 
-// A clip: the poses of a rig's bones at 60 frames per second, like an imported animation. A backward solve of
-// a clip finds poses that the rig cannot express.
+// A clip: the poses of a rig's bones at 60 frames per second, like an imported animation. Solving it backward
+// finds poses that the rig cannot express.
 
 inline constexpr std::size_t max_clip_frames = 3'600, max_clip_poses = 100'000;
 
@@ -65,7 +65,7 @@ struct FrameLeft {
 /// A backward solve of the clip, frame by frame; each starts from the previous one.
 struct ClipSolve {
     bool running = true;
-    std::vector<FrameLeft> left;       ///< one per frame so far
+    std::vector<FrameLeft> left;       ///< one per solved frame
     std::vector<rig::Value> controls;  ///< values in the last frame solved; the next one starts there
     std::size_t done() const { return left.size(); }
     bool operator==(const ClipSolve&) const = default;
@@ -80,7 +80,7 @@ struct ClipSolve {
 
 /// Ten minutes. A longer take continues as a new one.
 inline constexpr std::uint32_t max_take_ticks = 36'000;
-/// Likewise, a take with more keys continues as a new one.
+/// A take with more keys also continues as a new one.
 inline constexpr std::size_t max_take_keys = 3'600;
 
 /// A control that follows a horizontal path within its space: y is constant.
@@ -107,7 +107,7 @@ struct RigTake {
     std::uint32_t tick = 0;                            ///< the current tick
     std::uint32_t last = 0;                            ///< the last tick played
     std::uint64_t began = 0;                           ///< the tick of the lab's time where the take begins
-    bool recording = false;                            ///< until rig.clip.record keeps it as a clip
+    bool recording = false;                            ///< until rig.clip.record makes it a clip
 
     std::uint64_t now() const { return began + tick; }
     bool operator==(const RigTake& other) const;
@@ -129,15 +129,15 @@ struct BackwardLeft {
     double worst_scale() const;    ///< likewise
     bool expressed() const;        ///< all residuals are too small to see
 };
-/// Combines metres, radians and scale as a backward solve weighs them, for bones about 0.3 m long.
+/// Combines metres, radians and scale with a backward solve's weights, for bones about 0.3 m long.
 double amount(const rig::Residual& left);
 
 /// The largest distances between the bones at the usual frame rates; reset by any change.
 struct RateDifference {
     double mm = 0.0, degrees = 0.0, scale = 0.0;  ///< maximum over all bones
-    std::string bone;                             ///< the bone farthest apart; empty in a rig without bones
+    std::string bone;                             ///< bone with the largest distance; empty without bones
     std::string between;                          ///< the two rates: "15 Hz and 144 Hz"
-    double seconds = 0.0;                         ///< time in the take at which it happens
+    double seconds = 0.0;                         ///< when in the take
     double ticks = 0.0;                           ///< number of ticks compared
     std::size_t frames = 0, done = 0;             ///< frames of the slowest rate: total, and compared so far
     bool running = false;                         ///< more ticks will continue it
@@ -177,13 +177,13 @@ class SharedState {
 
 struct RigPart final : Part {
     RigPart();  ///< an empty rig
-    /// A rig at rest, after one tick: units with memory have started and follow whatever is set next. Throws
+    /// A rig at rest, after one tick: units with memory have started, and will follow later changes. Throws
     /// std::invalid_argument as redefine does.
     explicit RigPart(rig::Definition definition);
 
     rig::Rig rig;
     SharedState state;
-    /// Whether the next tick changes anything: there was an edit, or a unit with memory still moves.
+    /// True if the next tick changes anything: there was an edit, or a unit with memory still moves.
     bool moving = false;
     std::optional<BackwardLeft> backward;
     RigTake take;                ///< `state` is its state at `take.tick`

@@ -25,9 +25,9 @@ class TakeSnapshots {
         SharedState state;  ///< before that tick's controls were set
         bool moving = false;
     };
-    /// Keeps the part's current tick if its number is due for a snapshot.
+    /// Keeps the part's current tick if a snapshot is due there.
     void offer(const RigPart& part);
-    /// Keeps it in any case. The part must not yet include the controls set at its tick.
+    /// Keeps it in any case. The controls set at its tick must not be applied yet.
     void keep(const RigPart& part);
     /// The last snapshot at or before a tick, with its tick; null if there is none.
     const std::pair<const std::uint32_t, Snapshot>* nearest(const RigPart& part, std::uint32_t tick);
@@ -64,8 +64,8 @@ class RigRuntime final : public Runtime {
     TakeSnapshots snapshots;
     RatesWork rates;
 
-    /// Why an element of the lab's part is where it is; recomputed when the part has changed. The reference
-    /// is valid until the next call.
+    /// Why an element of the lab's part is where it is; recomputed when the part changes. The reference is
+    /// valid until the next call.
     const rig::Explanation& explanation(const Workspace& workspace, std::size_t element);
 
     /// State of the interface only; nothing else depends on it.
@@ -73,7 +73,7 @@ class RigRuntime final : public Runtime {
         SearchText filter{};          ///< text that names in the tree must contain
         std::string shown{}, unit{};  ///< the items that the lists last scrolled to
         bool all_units = false;       ///< whether to list units that did not affect the element
-        /// The Euler angles as last entered for `rotation`, which has many equivalent ones.
+        /// The last Euler angles entered for `rotation`, which has many equivalent ones.
         glm::dvec3 degrees{0.0};
         glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     } panel;

@@ -1,7 +1,7 @@
 // The state of a rig in a scene file, and the Rig lab's --state.
 //
-// Stores only poses that differ from rest. Of local and global pose, one was computed from the other; storing
-// that other one makes the round trip exact.
+// Stores only poses that differ from rest. One of local and global pose was computed from the other; storing
+// the latter makes the round trip exact.
 #include "app/labs/rig/state_json.hpp"
 
 #include <cstring>
@@ -158,7 +158,7 @@ struct ToJson {
     Json operator()(const ik::State& state) const { return {{"ik", save_ik_state(state)}}; }
 };
 
-/// Rotations are not of unit length before it has started.
+/// Rotations do not have unit length before the filter has started.
 template <class T>
 rig::UnitMemory read_spring(const JsonPlace& place) {
     signal::SpringState<T> state;

@@ -13,8 +13,8 @@ Json rig_state_json(const rig::Rig& rig, const rig::State& state);
 /// Ignores other members. Throws std::runtime_error that begins with the JSON path.
 rig::State read_rig_state(const JsonPlace& place, const rig::Rig& rig);
 
-// A unit's memory of an element, as JSON: null for nothing, else an object whose only member names the kind
-// of memory: {"turned"}, {"output"}, {"spring"} or {"ik"}.
+// A unit's memory of an element, as JSON: null for none, else an object whose only member names the kind of
+// memory: {"turned"}, {"output"}, {"spring"} or {"ik"}.
 
 Json memory_json(const rig::UnitMemory& memory);
 rig::UnitMemory read_memory(const JsonPlace& place);

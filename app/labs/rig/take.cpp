@@ -31,7 +31,7 @@ void apply_key(const rig::Rig& rig, const TakeKey& key, rig::State& state) {
     static_cast<void>(rig.set_control(state, key.element, key.value));
 }
 
-/// The keys of a tick: those up to its last solve, then those set later, which take effect in the next tick.
+/// The keys of a tick: those up to its last solve, then later ones, which take effect in the next tick.
 struct KeysOfTick {
     std::span<const TakeKey> solved, set;
 };
@@ -44,12 +44,12 @@ KeysOfTick keys_at(const RigTake& take, std::uint32_t tick) {
     return {{begin, set}, {set, end}};
 }
 
-/// Whether the control already has the value of a key: it was set here, or changes nothing.
+/// True if the control already has the key's value: it was set here, or changes nothing.
 bool is_shown(const RigPart& part, const TakeKey& key) {
     return part.state->controls[key.element] == key.value;
 }
 
-/// Applies the keys that belong to the display of the part's tick.
+/// Applies the keys that are visible at the part's tick.
 void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
     for (const TakeKey& key : keys_at(part.take, part.take.tick).solved) {
         if (key.element == TakeKey::solve) {
@@ -86,7 +86,7 @@ std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
     return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
 }
 
-/// The keys that have taken effect. Excludes keys of the current tick that are not applied yet.
+/// The keys in effect, without keys of the current tick that are not applied yet.
 std::vector<TakeKey> keys_so_far(const RigPart& part) {
     const RigTake& take = part.take;
     if (!take.keys) return {};
@@ -103,7 +103,7 @@ bool too_far(const RigPart& part, std::uint32_t ticks) {
     return ticks * part.rig.work() > max_seek_work;
 }
 
-/// Goes to a tick from the nearest snapshot before it. Returns false if that is too far.
+/// Goes to a tick from the nearest snapshot before it. Returns false if that is too far away.
 bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const auto* nearest = runtime.snapshots.nearest(part, tick);
     const std::uint32_t from = nearest ? nearest->first : 0;
@@ -118,7 +118,7 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     return true;
 }
 
-/// Undoes the keys of the current tick. `keys`: the earlier ticks' keys.
+/// Undoes the keys of the current tick. `keys`: those of earlier ticks.
 bool undo_keys_here(RigPart& part, std::vector<TakeKey> keys, RigRuntime& runtime) {
     part.take.keys = shared(std::move(keys));
     if (!go_from_known(part, part.take.tick, runtime)) return false;

@@ -8,9 +8,9 @@
 
 namespace tendril::app {
 
-/// Starts a new take at the current time, because the future no longer follows from the take so far.
+/// Starts a new take at the current time, because later states no longer follow from the take.
 void begin_take(RigPart& part);
-/// Ends a recording whose take `part` has left since `before`: keeps the clip, and says so.
+/// Ends a recording if `part` has left its take since `before`: keeps the clip, and says so.
 void keep_recording(Workspace& workspace, RigPart& part, const RigPart& before);
 /// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);
@@ -19,7 +19,7 @@ void key_control(RigPart& part, std::size_t element);
 /// first and solving once.
 void solve_now(RigPart& part, RigRuntime& runtime, bool measured);
 
-/// Whether a tick would change anything.
+/// True if a tick would change anything.
 bool time_moves(const RigPart& part);
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
 /// Goes to any tick of the take, or past its end, with the same result as playing to it. Throws
@@ -46,11 +46,11 @@ class TakeRunner {
 
 // Positions on the paths that controls follow.
 
-/// Whether controls of this kind can follow a path.
+/// True if controls of this kind can follow a path.
 bool can_walk(rig::ControlKind kind);
 /// The position `ticks` after the start of the take (may be fractional), within the control's space.
 glm::dvec3 walk_point(const Motion& motion, double ticks);
-/// The value of the control there; takes what the path does not determine from `now`.
+/// The control's value there; components that the path does not set come from `now`.
 rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks);
 
 }  // namespace tendril::app

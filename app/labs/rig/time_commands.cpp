@@ -46,7 +46,7 @@ void select(RigPart& part, const Arguments& given) {
     part.selected = std::move(selected);
 }
 
-/// Reading changes no value, but stores computed pending poses, which is visible. So it edits the part
+/// Reading changes no value, but it stores computed pending poses, which is visible. So it edits the part
 /// itself.
 void read(Workspace& workspace, const Arguments& given) {
     const std::vector<std::size_t> elements = elements_given(rig_part(workspace), given);
@@ -204,14 +204,14 @@ glm::vec3 place_of(const rig::Value& value) {
     return glm::vec3(pose ? pose->translation : std::get<glm::dvec3>(value));
 }
 
-/// The tick along path `to` with the same phase as `ticks` after the start of `from`.
+/// The tick on path `to` with the same phase as `ticks` on path `from`.
 std::uint32_t phase_of(const Motion& from, std::uint32_t ticks, const Motion& to) {
     const std::uint64_t round = ticks_per_round(from), at = (std::uint64_t{from.ticks} + ticks) % round;
     return static_cast<std::uint32_t>(at * ticks_per_round(to) / round);
 }
 
-/// Unless its centre is given, the path starts at the control, so that the control does not jump. A control
-/// already on the same path keeps its centre. `old`: null if it does not walk.
+/// Unless a centre is given, the path starts at the control, so the control does not jump. A control already
+/// on the same path keeps its centre. `old`: null if it does not walk.
 RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, const Arguments& given) {
     const rig::Element& element = part.rig.definition().elements[at];
     if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is not a control");
@@ -275,7 +275,7 @@ void go(Workspace& workspace, const Arguments& given) {
     if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 
-/// The ticks played so far, or else ten seconds if a control walks.
+/// The ticks played so far or, if a control walks, at least ten seconds.
 std::uint32_t ticks_worth_looking_at(const RigPart& part) {
     if (part.take.last > 0) return part.take.last;
     if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or give seconds");
@@ -339,7 +339,7 @@ void compare_rates(Workspace& workspace, const Arguments& given) {
     });
 }
 
-/// Finishes for callers that do not wait for ticks.
+/// Finishes at once for callers that do not wait for ticks.
 void finish_rates(Workspace& workspace) {
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (RatesWork work; part.rates && part.rates->running;) work.advance(part);

@@ -22,7 +22,7 @@ namespace tendril::app {
 namespace {
 
 /// The controls that the rows edit; the first one's walk is shown. The selected controls that can walk, the
-/// active one first; else one that walks; else the first that can.
+/// active one first; without any, a control that walks; without that, the first that can.
 std::vector<std::size_t> walkers(const RigPart& part) {
     const auto& elements = part.rig.definition().elements;
     const auto can = [&](std::size_t at) {
@@ -195,7 +195,7 @@ namespace {
 
 constexpr std::uint64_t shortest = 600, longest = 2ull * max_take_ticks, lead = 60;  ///< ticks
 
-/// The ticks on display: from shortly before the take, or from a nearby clip, to the end of the later one.
+/// The ticks shown: from shortly before the take, or from a nearby clip, to the end of the later one.
 struct Window {
     std::uint64_t first = 0, last = 0;
 };
@@ -211,7 +211,7 @@ Window window_of(const RigPart& part) {
     window.last = std::max({window.last, take.now(), window.first + shortest});
     return window;
 }
-/// Also covers the newest moment in the history, so that the strip stays put while an earlier one is shown.
+/// Also covers the newest moment in the history, so the strip does not move while an earlier one is shown.
 Window shown_window(const Workspace& workspace) {
     Window window = window_of(rig_part(workspace));
     if (workspace.rewind.empty()) return window;
@@ -225,7 +225,7 @@ float share_of(const FrameLeft& left) {
     return static_cast<float>(std::clamp((std::log10(std::max(amount(left), 1e-4)) + 4.0) / 4.0, 0.0, 1.0));
 }
 
-/// Frames that the rig expresses are faint; the others go from yellow to red.
+/// Frames that the rig can express are faint; the others go from yellow to red.
 TimeBar bar_of(const FrameLeft& left, const Palette& colours) {
     if (left.expressed()) return {glm::mix(colours.panel, colours.axis_y, 0.55f), 0.1f};
     const float share = share_of(left);

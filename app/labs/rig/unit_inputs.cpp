@@ -50,7 +50,7 @@ class Lister {
 
     void list(const Field& field, const void* object, const std::string& path, const std::string& title) {
         const bool nested = field.type == FieldType::Struct;
-        if (field.holds<rig::Unit>()) return;  // body units have their own rows
+        if (field.holds<rig::Unit>()) return;  // units of a body have their own rows
         if (nested && field.count != nullptr) {
             const std::size_t count = field.count(object);
             for (std::size_t i = 0; i < count; ++i)
@@ -188,14 +188,14 @@ std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name) {
 
 namespace {
 
-/// As Rig::make: an input of T also accepts types that convert to T.
+/// As in Rig::make, an input of T also accepts types that convert to T.
 bool converts(rig::Type from, rig::Type to) {
     using enum rig::Type;
     return from == to || (from == Bool && to == Number) ||
            (from == Transform && (to == Vector || to == Rotation));
 }
 
-/// Parts of a pose that have the type; each exists in global and local space.
+/// Parts of a pose with the type; each exists in global and local space.
 std::vector<rig::Of> parts_of(rig::Type type) {
     using enum rig::Of;
     const std::vector<rig::Of> parts[] = {{}, {X, Y, Z}, {Translation, Scale}, {Rotation}, {Transform}};
@@ -237,7 +237,7 @@ class Offers {
         offers_.push_back({std::move(title), SharedJson(std::move(value)), now});
     }
 
-    /// The type of the input, or else the types of a spring. A force must fit the spring's velocity.
+    /// The types of the input; for a spring, all its types. A force must match the spring's velocity.
     std::vector<rig::Type> types() const {
         if (input_.type()) return {*input_.type()};
         if (input_.path == "/force") return {rig::type_of(part_.state->units[row_.at].outputs[1])};
@@ -316,7 +316,7 @@ class Offers {
         }
     }
 
-    /// An input of any type converts nothing.
+    /// An input without a type converts nothing.
     bool fits(rig::Type from, rig::Type to) const { return input_.type() ? converts(from, to) : from == to; }
 
     void elements(bool bones) {

@@ -1,5 +1,5 @@
-// The inputs and outputs of a unit as a panel lists them: their sources, current values, possible
-// replacements and help texts. Based on the table of units, so that no operation is forgotten.
+// The inputs and outputs of a unit as a panel lists them: sources, current values, possible replacements and
+// help texts. Based on the table of units, so no operation is forgotten.
 #pragma once
 
 #include <optional>
@@ -26,10 +26,10 @@ struct UnitInput {
     std::optional<rig::Value> value{};
     bool count = false;  ///< a whole number, such as a number of elements
 
-    /// For an input: the type of a literal; none: any.
+    /// For an input: the type of a literal; none: any type.
     std::optional<rig::Type> type() const { return rig::access_of(*field).type; }
     bool is(FieldType type) const { return field->type == type; }
-    /// Whether it takes an input. A field of type Other that does not holds an item.
+    /// True if it takes an input. A field of type Other that does not, holds an item.
     bool takes_input() const {
         return is(FieldType::Other) && rig::access_of(*field).takes == rig::InputAccess::Takes::Any;
     }
@@ -38,14 +38,14 @@ struct UnitInput {
     bool literal() const { return from.empty(); }
 };
 
-/// The speed limit of an aim, for which 0 means no limit.
+/// An aim's speed limit, where 0 means no limit.
 bool is_speed_limit(const UnitInput& input);
 /// "roots" becomes "root".
 std::string one_of(std::string title);
 /// `value` on one line; counts have no decimals, a missing limit reads "no limit".
 std::string input_text(const UnitInput& input, const rig::Value& value);
 
-/// Weight and switch first. `now` is the hierarchy after the last unit, nothing pending.
+/// Weight and switch first. `now` is the hierarchy after the last unit, with nothing pending.
 std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& now, const rig::Unit& unit);
 
 /// The arguments of rig.unit.set that replace the value at `path`: {"name", "primary": {...}}.
@@ -55,16 +55,16 @@ Json with_input(const rig::Unit& unit, const std::string& path, Json value);
 struct UnitRow {
     const rig::Unit* unit = nullptr;
     std::size_t at = 0;   ///< index in State::units
-    std::size_t top = 0;  ///< index in Definition::units; inside a body, its for-each's
+    std::size_t top = 0;  ///< index in Definition::units; in a body, its for-each's
     bool inner = false;   ///< in a body
 };
 /// In execution order; a body follows its for-each.
 std::vector<UnitRow> unit_rows(const RigPart& part);
-/// The unit of that name; none if there is none.
+/// The unit of that name; empty if it does not exist.
 std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name);
 
 // Replacements for an input: elements, outputs of earlier units, the variables of a for-each. The inspector
-// lists these; rig.unit.set accepts each of them.
+// lists them; rig.unit.set accepts each.
 
 struct InputOffer {
     std::string title;  ///< "dial, value", "unit late", "each ratio, 0 to 1"

@@ -1,4 +1,4 @@
-// The units that Add a unit offers, wired to what is selected.
+// The units that Add a unit offers, wired to the selection.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -36,7 +36,7 @@ std::vector<std::string> selected_but(const RigPart& part, const rig::Element& i
     return names;
 }
 
-/// A selected element other than a control, otherwise the first bone; null if there is neither.
+/// A selected element other than a control or, without one, the first bone; null if there is neither.
 const rig::Element* no_control(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
     for (const std::size_t each : part.selected.elements.all())
@@ -73,7 +73,7 @@ const rig::Element* other_than(const RigPart& part, const rig::Element& element)
     return found;
 }
 
-/// The element `count` levels above a bone; null if not all on the way are bones.
+/// The element `count` levels above a bone; null if any on the way is not a bone.
 const rig::Element* bones_above(const RigPart& part, const rig::Element& tip, std::size_t count) {
     const rig::Element* at = &tip;
     for (std::size_t i = 0; i < count && at != nullptr; ++i) at = parent_of(part, *at);
@@ -88,7 +88,7 @@ UnitOffer with_item(const RigPart& part, Json unit) {
 }
 
 /// The item's own axis that points most nearly at the other element. Unless that is y, its length, also the
-/// axis that points up, which stays up: a head keeps upright.
+/// axis that points up, which stays up: a head stays upright.
 void aim_at(const RigPart& part, const rig::Element& item, const rig::Element& other, Json& unit) {
     constexpr int length = 1;
     rig::Hierarchy now = part.state->elements;
@@ -121,7 +121,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
     if (other == nullptr) return {{}, "add a second element first"};
-    // Controls are meant to be followed; a control that follows would just lose its own pose.
+    // Controls are meant to be followed; a control that follows would only lose its own pose.
     if (const rig::Element* instead = no_control(part);
         instead != nullptr && item->kind == rig::ElementKind::Control)
         other = std::exchange(item, instead);
@@ -154,8 +154,8 @@ UnitOffer chain(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
-/// Unlike the other solvers, offers the whole chain: through the selected elements in order, or else from the
-/// root's position through all controls.
+/// Unlike the other solvers, offers the whole chain: through the selected elements in order or, without any,
+/// from the root's position through all controls.
 UnitOffer along_points(const RigPart& part, Json unit) {
     UnitOffer offer = chain(part, std::move(unit));
     if (!offer.unit) return offer;

@@ -62,7 +62,7 @@ void add_unit_menu(const RigPanel& panel) {
     const bool pressed =
         row_button("Add a unit", 1, true,
                    ("Choose a kind; the new unit runs last" + (loop.empty() ? "" : " in " + loop)).c_str());
-    constexpr float width = 24.0f;  // em: room for the longest reason why not
+    constexpr float width = 24.0f;  // em: room for the longest reason
     if (!begin_list_of_button("add unit", pressed, {.width = width * ImGui::GetFontSize(), .rows = 16}))
         return;
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
@@ -341,7 +341,7 @@ void unit_inspector(const RigPanel& panel) {
     const auto row = unit_row(panel.part, panel.part.selected.unit);
     if (!row) return;
     const PanelSection ids(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
-    // The warning takes the place of the note, in room for two lines, so that the fields stay put.
+    // The warning replaces the note, in room for two lines, so that the fields do not move.
     const float top = ImGui::GetCursorPosY();
     const rig::Warning warning = panel.part.state->units[row->at].warning;
     if (row->unit->enabled && warning != rig::Warning::None)
@@ -354,7 +354,7 @@ void unit_inspector(const RigPanel& panel) {
     name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
-        if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch covers it
+        if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch shows it
         ImGui::PushID(input.path.c_str());
         fields.row(input);
         ImGui::PopID();

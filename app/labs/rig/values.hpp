@@ -13,7 +13,7 @@
 
 namespace tendril::app {
 
-/// Refuses rotations that are not of unit length, as a rig's own always are. Accepts all other types.
+/// Refuses rotations without unit length, as a rig's own always have. Accepts all other types.
 void check_unit(const JsonPlace& place, const rig::Value& value);
 /// Reads a value stored in a state, as the rig reached it.
 rig::Value read_stored(const JsonPlace& place, rig::Type type);
@@ -33,7 +33,7 @@ Json control_value_json(rig::ControlKind kind, const rig::Value& value);
 /// Members omitted from a transform are taken from `now`.
 rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, const rig::Value& now,
                               double most = most_given);
-/// The values of a rig's controls by name, as it reached them; `controls` has one for each element.
+/// The values of a rig's controls by name; `controls` has one for each element.
 Json controls_json(const rig::Rig& rig, const std::vector<rig::Value>& controls);
 void load_controls(const JsonPlace& place, const rig::Rig& rig, std::vector<rig::Value>& controls);
 /// Reads the value of one control, within its limits.
@@ -41,7 +41,7 @@ rig::Value read_reached(const JsonPlace& place, const rig::Control& control, con
 
 // When several values are set at once, each keeps its untouched parts: null in a vector, omitted from a
 // transform.
-/// `after` without the members that equal `before`.
+// / `after` without the members that equal those of `before`.
 Json touched(Json after, const Json& before);
 /// `given`, with nulls replaced from `now`. A rotation is given whole or not at all.
 Json filled(Json given, const Json& now);

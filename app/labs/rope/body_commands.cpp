@@ -123,7 +123,7 @@ void weigh(RopeEdit& edit, const Arguments& given) {
 
 void unpin(RopeEdit& edit, const Arguments& given) {
     std::vector<NamedParticle> all = named_particles(edit.seen(), given);
-    // Unpins the last one first: removing from the end of a list moves nothing.
+    // Unpin from the end: removing the last element moves no other.
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.particle > b.particle; });
     for (const NamedParticle& named : all) {
         if (!edit.seen().pinned(named.particle)) continue;
@@ -302,7 +302,7 @@ void add_body_commands(CommandTable& table) {
 
 namespace {
 
-/// The spaces of bodies and colliders, except planes; a swinging collider fills its whole path.
+/// The space taken by bodies and colliders, except planes; a swinging collider takes its whole path.
 std::vector<Space> filled_spaces(const RopePart& part) {
     constexpr float apart = 0.1f;  // metres
     const NamedWorld& world = *part.world;
@@ -336,7 +336,7 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed) {
     const auto is_free = [&](glm::vec3 at) {
         return std::ranges::none_of(filled, [&](const Space& each) { return each.meets(needed.moved(at)); });
     };
-    // Search along the nearest axes of the grid, so that scenes stay in order.
+    // Search along the nearest axes of the grid, so that scenes stay tidy.
     const float yaw = glm::half_pi<float>() * std::round(workspace.camera.yaw / glm::half_pi<float>());
     const glm::vec3 right(std::round(std::cos(yaw)), 0.0f, -std::round(std::sin(yaw)));
     const glm::vec3 behind(right.z, 0.0f, -right.x);

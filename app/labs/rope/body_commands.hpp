@@ -16,7 +16,7 @@ namespace tendril::app {
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
-/// Removes what `of` finds by its name, and all that refers to it.
+/// Removes what `of` finds by name, and all references to it.
 template <auto of, auto removal>
 void remove_named(RopeEdit& edit, const Arguments& given) {
     of(edit.seen(), given.text("name"));
@@ -30,7 +30,7 @@ Argument collider_argument(const char* name, bool required, const char* help);
 Argument tie_argument(const char* name, bool required, const char* help);
 Argument rope_argument(bool required, const char* help);
 Argument particle_argument(bool required, const char* help);
-/// For commands that treat several particles alike.
+/// For commands that treat several particles in the same way.
 Argument particles_argument();
 
 void add_world_commands(CommandTable& table);
@@ -45,7 +45,7 @@ void add_look_commands(CommandTable& table);
 struct RopeSceneEntry {
     std::string name, title, help;
     CameraPose view;   ///< the best view of the scene
-    SharedJson world;  ///< what make_rope_scene() reads
+    SharedJson world;  ///< the input of make_rope_scene()
 };
 
 /// In the order of the panel. The lab opens with the first one.

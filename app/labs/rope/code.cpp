@@ -74,7 +74,7 @@ class RopeProgram {
         line("");
     }
 
-    /// `opening`, entries separated by commas, then `closing`, with as many as fit on a line.
+    /// Writes `opening`, the entries separated by commas, then `closing`, filling each line.
     void list(const std::string& opening, const std::vector<std::string>& entries, const std::string& closing,
               const std::string& margin = "    ") {
         std::string row = entries.empty() ? opening + closing : opening;
@@ -100,7 +100,7 @@ class RopeProgram {
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }
-    /// Adds a body, collider, tie or pin: `members`, then those of its table that differ from their
+    /// Adds a body, collider, tie or pin: `members`, then those fields of its table that differ from their
     /// default, then `last`.
     template <class Row>
     void add(const std::string& what, const Row& row, std::vector<std::string> members,
@@ -226,7 +226,7 @@ class RopeProgram {
 }  // namespace
 
 /// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Leaves out a
-/// partial tick that is left over by slow motion or frame-time jitter.
+/// partial tick left over by slow motion or frame-time jitter.
 std::string RopeLab::code(const Workspace& workspace) const {
     return RopeProgram(rope_part(workspace)).text();
 }

@@ -74,11 +74,11 @@ class Drawing {
         return chosen(body) && part_.selection->particles.has(i);
     }
 
-    /// Whether its particles show the selection; the body's colour shows that all of it is selected.
+    /// True if its particles show the selection; if all of it is selected, the body's colour does.
     bool shows_selected(const rope::Body& body) const {
         return chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
     }
-    /// A body with its own colour keeps it if its particles show the selection.
+    /// True if the body is marked. A body with its own colour keeps it if its particles show the selection.
     bool marked(const rope::Body& body) const {
         return chosen(body) &&
                (colour_of(world_, body, part_.view.colours()) == BodyColour::ByKind || !shows_selected(body));
@@ -106,7 +106,7 @@ class Drawing {
             catchable_box(*block, pick);
         } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
             plane_patch(list_, view_.camera, plane->point, plane->normal, plane_radius, colour);
-            // A grip in the centre of the plane; on the ground it would only be a nuisance.
+            // A grip in the centre of the plane, except on the ground, where it would get in the way.
             if (!view_.handles || (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f))
                 return;
             solid(list_.sphere(plane->point, px(5.0f), Unit::Pixels, glm::vec4(colour, 1.0f)), pick);
@@ -116,7 +116,7 @@ class Drawing {
         stroke.shadow = true;
         stroke.pick = pick;
     }
-    /// Invisible capsules along all but its thinnest sides approximate the box.
+    /// Invisible capsules along all except its thinnest sides approximate the box.
     void catchable_box(const rope::Box& block, PickId pick) {
         const glm::vec3 half = block.half_extents;
         const float thick = std::min({half.x, half.y, half.z});
@@ -137,8 +137,8 @@ class Drawing {
         }
     }
 
-    /// Particles much heavier than their neighbours are drawn as balls of a size that fits their mass, such
-    /// as a pendulum's bob.
+    /// Particles much heavier than their neighbours, such as a pendulum's bob, are balls of a size that fits
+    /// their mass.
     void weights() {
         const std::vector<double>& mass = world_.state().mass;
         for (const rope::Body& body : world_.state().bodies) {
@@ -214,7 +214,7 @@ class Drawing {
             for (std::size_t i = 0; i < body.count; ++i) {
                 const std::size_t particle = body.first + i;
                 const PickId pick = particle_pick(particle);
-                const bool alone = body.count == 1;  // the rest of a rope cut near its end
+                const bool alone = body.count == 1;  // the remainder of a rope cut near its end
                 const bool selected = some && chosen(body, i), under_mouse = !cuts && lit(pick);
                 if (!(pinned[particle] || selected || under_mouse || part_.view.particles || alone)) continue;
                 const glm::vec3 colour = selected            ? view_.palette.selection
@@ -229,7 +229,7 @@ class Drawing {
             }
         }
     }
-    /// In pixels: a little more than the rope's thickness, so that the ball is visible.
+    /// In pixels: slightly more than the rope's thickness, so that the ball is visible.
     float ball_radius(const rope::Body& body, std::size_t particle) const {
         const float thick = radius(body) / view_.camera.metres_per_pixel(positions_[particle]);
         return std::clamp(1.3f * thick, px(3.0f), std::max(px(6.0f), 1.3f * thick));

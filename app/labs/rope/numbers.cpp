@@ -69,12 +69,12 @@ std::span<const RopeSample> of_last_second(const std::vector<RopeSample>& sample
 
 // Finds pins that are farther apart than the length between them, and the resulting tensions.
 //
-// Pins and the ends of ties are the nodes of a graph. Its edges are the stretch of rope, strand or cloth
-// between two nodes of a body, and the ties. The shortest path between two pins is their maximum distance.
+// Pins and the ends of ties are the nodes of a graph. Its edges are the ties, and the stretches of rope,
+// strand or cloth between two nodes of a body. The shortest path between two pins is their maximum distance.
 
 constexpr std::size_t max_pins = 32;         ///< per body, compared with others
-constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: each pair of them has an edge
-constexpr double too_short = 1.001;          ///< distance of the pins over the length between them
+constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: each pair of nodes has an edge
+constexpr double too_short = 1.001;          ///< the pins' distance divided by the length between them
 constexpr double no_way = std::numeric_limits<double>::infinity();
 
 /// The distances along rows and columns that links allow between a body's particles.
@@ -236,11 +236,11 @@ class PinGraph {
     const rope::State& state_;
     std::vector<Node> node_;                                    ///< by body, then by particle
     std::vector<std::pair<std::uint32_t, std::size_t>> index_;  ///< particle, node; ascending
-    std::vector<double> length_;                                ///< the search's, by node
+    std::vector<double> length_;                                ///< distances in the search, by node
     std::vector<std::size_t> before_;
 };
 
-/// Whether the path between pins that are too far apart leads through two of these particles.
+/// True if the path between pins that are too far apart leads through two of these particles.
 template <class Inside>
 bool is_pulled(const std::vector<OverPulled>& all, Inside inside) {
     return std::ranges::any_of(

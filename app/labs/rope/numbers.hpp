@@ -35,9 +35,9 @@ std::string share_text(float share);
 
 /// Two pins farther apart than the length between them: of rope, of cloth along its threads, and of ties.
 struct OverPulled {
-    std::string from, to;              ///< the bodies that are pinned, may be the same
+    std::string from, to;              ///< the pinned bodies, possibly the same
     double apart = 0.0, length = 0.0;  ///< metres
-    std::vector<std::uint32_t> way;    ///< the path of particles between the pins: pins and tie ends
+    std::vector<std::uint32_t> way;    ///< the path between the pins: particles at pins and tie ends
 };
 /// The worst for each pin, the worst of all first. Elastic links count as long enough.
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
@@ -45,15 +45,15 @@ std::vector<OverPulled> over_pulled(const NamedWorld& world);
 /// "12.34 N", or "25.2 MN" where hundredths are meaningless.
 std::string force_text(float newtons);
 /// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
-/// draws its ends together, and where pins pull inextensible links: that force has no limit.
+/// pulls its ends together, and where pins pull inextensible links, since that force is unbounded.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
-/// The force at which a rope tears: "100.00 N", or "only by its pins". Empty if it never tears, and for
-/// other bodies.
+/// The force at which a rope tears: "100.00 N", or "only by its pins". Empty if it never tears, and for other
+/// bodies.
 std::string tearing_text(const NamedWorld& world, const rope::Body& body);
 /// "rope tore at particle 12 at 100.00 N; so did 2 others"; at least one.
 std::string torn_text(const std::vector<RopeTear>& tears);
-/// The tension of a tie, if it is a number of newtons.
+/// The tension of a tie, if it is a number.
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);
 
 }  // namespace tendril::app

@@ -120,7 +120,7 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
     if (row_button("Restart", 1, part.start != nullptr, restart_cure().help.c_str())) emit("rope.restart");
     end_row();
-    constexpr float uneven = 0.5f;  // of the dial: 4 to 65 ms
+    constexpr float uneven = 0.5f;  // on the dial: 4 to 65 ms
     const auto rates = signal::usual_rates();
     for (const signal::FrameRate& rate : rates) {
         const auto hz = static_cast<float>(rate.hz);
@@ -249,7 +249,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Select all", 3, body.count > 1, "Selects all of it: its arrows then move it"))
         emit("rope.select", {{"rope", world.name(body)}});
     end_row();
-    // Below the buttons: pinned, it has three rows, and Pin must stay under the mouse.
+    // Below the buttons: a pinned particle has three rows, and Pin must stay under the mouse.
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
@@ -335,7 +335,7 @@ Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& s
     return drawn;
 }
 
-/// Shown while any frame of the last ten seconds is uneven.
+/// Shown if any frame of the last ten seconds is uneven.
 void frame_times(const std::vector<RopeSample>& samples, const Palette& palette) {
     constexpr float even = 1e3f * static_cast<float>(tick_seconds);
     const auto uneven = [](const RopeSample& sample) { return std::abs(sample.frame - even) > 1e-3f; };
@@ -366,7 +366,7 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
 }
 
-/// The present numbers of each racer, and their curves; `timed`: with the cost too.
+/// The present numbers of each racer, and their curves; `timed`: including the cost.
 void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
     const PanelSection ids("Race");
     const auto racers = rope_racers(part);

@@ -21,14 +21,14 @@ struct Space {
     Space moved(glm::vec3 by) const { return {low + by, high + by}; }
 };
 
-/// The centre of the view, or the nearest place to its right, to its left or behind it where `needed`, the
-/// space around that place, is free. Never a place in front of existing objects.
+/// The centre of the view or, if `needed` is not free there, the nearest free place to the right, left or
+/// behind. Never in front of existing objects.
 glm::vec3 free_place(const Workspace& workspace, const Space& needed);
 /// Buttons that add ropes, cloths, hair and colliders.
 void adding_rows(const Workspace& workspace, Emit& emit);
 /// The verdict on how well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
-/// The verdict with the simulation speed, if the machine is too slow for the ropes.
+/// The same verdict, or the simulation speed if the machine is too slow for the ropes.
 Verdict paced_verdict(Verdict said, const Workspace& workspace);
 /// Buttons for the bodies that a rope collides with.
 void collision_rows(const NamedWorld& world, const rope::Body& body, Emit& emit);

@@ -15,11 +15,11 @@ namespace {
 constexpr std::size_t max_threads = 200;  ///< per past pose
 constexpr std::size_t max_lines = 400;    ///< per past pose
 
-/// A number of the selected particles or their body, or else of all ropes.
+/// A number of the selected particles or their body; without a selection, of all ropes.
 struct Measure {
     const char *of_some, *of_all, *unit;
     float lowest_range;
-    bool of_body;  ///< not of particles
+    bool of_body;  ///< of a body, not of particles
     double (*value)(const NamedWorld&, const Particles&, const rope::Body*);
 };
 constexpr Measure measures[] = {
@@ -53,7 +53,7 @@ PastCurve rope_curve(const Workspace& workspace) {
     const RopePart& part = rope_part(workspace);
     std::optional<RopeSelection> selection = part.selection;
     if (selection && !selection->of_particles()) selection.reset();
-    // An emptied world shows no removed ropes.
+    // Do not show removed ropes in an emptied world.
     const bool empty = part.world->state().bodies.empty();
     const std::string name =
         selection ? measure.of_some + (measure.of_body ? selection->body : particles_name(*selection))
@@ -93,7 +93,7 @@ std::set<std::size_t> spread(std::size_t count, std::size_t wanted) {
 /// A row of particles.
 struct Thread {
     std::vector<std::size_t> particles{};  ///< indices in the world; a gap's is not linked
-    /// Marks the particles with a link to the next; empty: all.
+    /// Marks the particles linked to the next one; empty: all.
     std::vector<bool> linked{};
 
     bool whole(std::size_t from, std::size_t to) const {
@@ -136,8 +136,8 @@ std::vector<Thread> threads_of(const NamedWorld& world) {
     return threads;
 }
 
-/// Ropes and strands from end to end, and a cloth by five of its rows and columns. At most a few hundred
-/// lines, each over several links if necessary.
+/// Ropes and strands from end to end, and five rows and columns of each cloth. At most a few hundred lines,
+/// each over several links if necessary.
 PoseLines lines_of(const Workspace&, const SharedPart& part) {
     const NamedWorld& world = *part_as<RopePart>(part).world;
     const std::vector<Thread> threads = threads_of(world);
@@ -160,7 +160,7 @@ PoseLines lines_of(const Workspace&, const SharedPart& part) {
 
 }  // namespace
 
-/// Past poses are those of the same particles: also from before a cut or a tear, but not of another scene.
+/// Past poses must have the same particles: those before a cut or tear count, those of another scene do not.
 const Past& rope_past() {
     static const Past past{
         .lab = rope_lab,

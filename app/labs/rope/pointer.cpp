@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t max_handles = 400;
 
-/// The world of the pane that was picked in.
+/// The world of the picked pane.
 const NamedWorld& picked_world(const RopePart& part, PickId pick) {
     return world_in(part, static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane));
 }
 
-/// The picked one of these, whose picks begin with `first`; null if it is something else, or the world has
-/// changed since.
+/// The picked element of the list, whose picks begin with `first`; null if something else is picked, or the
+/// world has changed since.
 template <class Thing>
 const Thing* picked_of(const std::vector<Thing>& all, PickId first, PickId pick) {
     const PickId index = pick % picks_in_pane - first;
@@ -47,7 +47,7 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     return nullptr;
 }
 
-/// Whether the picked particle is pinned, and not only held by a drag.
+/// True if the picked particle is pinned, and not only held by a drag.
 bool is_pinned(const RopePart& part, PickId pick) {
     const auto pane = static_cast<std::size_t>(pick / picks_in_pane),
                particle = static_cast<std::size_t>(pick % picks_in_pane);
@@ -57,7 +57,7 @@ bool is_pinned(const RopePart& part, PickId pick) {
 
 constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);
 
-/// A shape's rotation: of a capsule from the x axis to its axis, of a plane from the y axis to its normal.
+/// A shape's rotation: for a capsule from the x axis to its axis, for a plane from the y axis to its normal.
 glm::quat turn_of(const rope::Shape& shape) {
     const auto from = [](glm::vec3 axis, glm::vec3 direction) {
         const float length = glm::length(direction);
@@ -265,7 +265,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const NamedWorld& world = picked_world(part, pick);
     if (const auto* collider = picked_collider(world, pick)) {
         if (part.tool == RopeTool::Tie && part.selection && part.selection->of_particles())
-            emit("rope.tie", {{"a", part.selection->body},  // which says why not
+            emit("rope.tie", {{"a", part.selection->body},  // the command says why not
                               {"a_particle", part.selection->particle()},
                               {"b", world.name(*collider)},
                               {"b_particle", 0}});
@@ -431,7 +431,7 @@ SelectedParticles selected_particles(const RopePart& part) {
 
 }  // namespace
 
-/// For a selected collider, a whole body, a pinned particle or several particles. A free particle alone is
+/// For a selected collider, a whole body, a pinned particle or several particles. A single free particle is
 /// pulled directly.
 std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
@@ -474,7 +474,7 @@ Together RopeLab::together(const Workspace& workspace, Drag what) const {
     return together;
 }
 
-/// Uses one command for all, so that while the simulation is paused they move simultaneously.
+/// Uses one command, so that all move simultaneously even while the simulation is paused.
 void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
                             Emit& emit) const {
     const RopePart& part = rope_part(workspace);

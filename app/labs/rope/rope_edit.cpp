@@ -211,7 +211,7 @@ std::shared_ptr<const NamedWorld> released(const RopeRacer& racer) {
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became) {
     const std::size_t first = world.find(body)->first;
     const auto number_of = [&](std::size_t was) { return first + became.particles[was]; };
-    /// The indices of `all` that are in the same body as `one`; sets `name` to that body's.
+    /// The indices of `all` that are in the same body as `one`; sets `name` to that body's name.
     const auto together = [&](std::size_t one, const std::vector<std::size_t>& all, std::string& name) {
         name = body;
         for (const std::string& each : became.pieces)

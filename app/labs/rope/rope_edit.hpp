@@ -40,18 +40,18 @@ class RopeEdit {
 /// Compares worlds by identity and the rest by value. Ignores quiet_ticks and samples.
 bool operator==(const RopePart& a, const RopePart& b);
 
-/// Throw Refused if there would be too many.
+/// Throws Refused if there would be too many.
 void check_particle_count(const NamedWorld& world, std::size_t more);
 void check_collider_count(const NamedWorld& world);
 /// Throws std::length_error if a substep would take too long.
 void check_work(const NamedWorld& world);
-/// Throw Refused if there is none of that name.
+/// Throw Refused if nothing has that name.
 const rope::Body& body_of(const NamedWorld& world, std::string_view name);
 const rope::Collider& collider_of(const NamedWorld& world, std::string_view name);
 const rope::Tie& tie_of(const NamedWorld& world, std::string_view name);
 /// The index of the body that contains a particle, searched from the body `near`.
 std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near);
-/// The particle that two arguments name.
+/// The particle named by two arguments.
 struct NamedParticle {
     std::string body;
     std::size_t index = 0;     ///< in the body
@@ -72,16 +72,16 @@ std::vector<std::size_t> held_particles(const RopeRacer& racer);
 bool is_held(const RopeRacer& racer, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
-/// Whether a drag holds particles, here or in a rival's world.
+/// True if a drag holds particles, here or in a rival's world.
 bool holds(const RopePart& part);
 /// Ends the drag, in all worlds.
 void let_go(RopePart& part);
-/// Its world with the drag released.
+/// The rival's world with the drag released.
 std::shared_ptr<const NamedWorld> released(const RopeRacer& racer);
 /// Updates selection and drag after a body was edited in the world: the selection stays with the active
-/// particle, on its piece; a drag of particles that are no longer on one piece ends.
+/// particle, on its piece; a drag ends if its particles are no longer on one piece.
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
-/// Makes separate bodies of the pieces that have torn off since `before`.
+/// Makes separate bodies of pieces that have torn off since `before`.
 void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
 /// Changes a body's number of segments; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.

@@ -144,7 +144,7 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     return selection;
 }
 
-/// A racer's data besides its world: held particles, and the last ten seconds, a column for each number
+/// A racer's data besides its world: held particles, and the last ten seconds as a column for each number
 /// except the cost, which depends on the computer.
 void save_racer(Json& json, const RopeRacer& racer) {
     if (racer.hold) json["held"] = save_fields(*racer.hold);
@@ -323,7 +323,7 @@ Json RopeLab::state(const Workspace& workspace) const {
     const std::vector<OverPulled> pulled = over_pulled(world);
     for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie, pulled));
     Json collisions = Json::array();
-    // In the order of the bodies: slots are given anew when a scene is opened.
+    // In the order of the bodies: opening a scene assigns new slots.
     std::set<std::pair<const rope::Body*, const rope::Body*>> pairs;
     for (const rope::Collision& each : now.collisions)
         pairs.insert(std::minmax(world.world().find(each.a), world.world().find(each.b)));

@@ -18,9 +18,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr int resting_ticks = 60;  ///< after so many ticks at rest the lab stops
+constexpr int resting_ticks = 60;  ///< the lab stops after this many ticks at rest
 
-/// A tick of a world, and its sample. Off-screen images and states contain no timings: they are measured in
+/// A tick of a world, and its sample. Off-screen images and states contain no timings: those are measured in
 /// live windows, and in a race for its CSV.
 void pass_tick(RopePart& part, const Clock& clock, bool measured, rope::Workspace& workspace) {
     using Time = std::chrono::steady_clock;
@@ -146,7 +146,7 @@ std::vector<MouseHelp> RopeLab::mouse_help() const {
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }
 
-/// The opening: a ball swings through the ropes that lie on it.
+/// The opening: a ball swings through the ropes lying on it.
 std::vector<CommandCall> RopeLab::opening() const {
     return {
         {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.0f, 0.12f, 0.3f)}, {"period", 4.0f}}}};
@@ -177,7 +177,7 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
 
 namespace {
 
-/// Whether links are meant to stretch.
+/// True if links are meant to stretch.
 bool stretches(const NamedWorld& world) {
     if (world.settings().compliance > 0.0f) return true;
     return std::ranges::any_of(world.state().links, [](const rope::Link& link) {
@@ -191,7 +191,7 @@ const rope::Body& worst_body(const NamedWorld& world) {
     return *std::ranges::max_element(world.state().bodies, {}, error);
 }
 
-/// Whether the link of a body that is furthest from its rest length is shorter.
+/// True if a body's link with the largest strain is compressed.
 bool squeezed(const rope::State& state, const rope::Body& body) {
     double worst = 0.0;  // strain
     for (const rope::Link& each : state.links) {
@@ -205,7 +205,7 @@ bool squeezed(const rope::State& state, const rope::Body& body) {
 
 constexpr const char* halve_substep = "Halve the substep";
 
-/// None at the minimum, where a tick already drops substeps, and for work that it would drop.
+/// None at the minimum, where a tick already drops substeps, nor for work that it would drop.
 std::optional<Cure> shorter_substeps(const RopePart& part) {
     const bool drops = last_second(part.samples).dropped > 0;
     const double now = part.world->settings().substep, half = std::max(0.5 * now, rope::min_substep);
@@ -223,7 +223,7 @@ std::string at_pace(double kept) {
     return ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + real_time;
 }
 
-/// Whether the pins are the two ends of a tie.
+/// True if the pins are the two ends of a tie.
 bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
     return pulled.way.size() == 2 && std::ranges::any_of(state.ties, [&](const rope::Tie& tie) {
                return std::ranges::count(pulled.way, tie.a) == 1 &&
@@ -252,7 +252,7 @@ Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // fraction of its length: visibly too long
     if (part.world->state().bodies.empty())
         return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or open a preset."};
-    // Before its first tick, an opened scene is judged as it is.
+    // An opened scene is judged as it is before its first tick.
     const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     const RopeReport report = last_second(part.samples);
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
@@ -262,7 +262,7 @@ Verdict rope_verdict(const RopePart& part) {
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
     const std::string off = "Lengths off by " + percent;
-    // Report this however slight it is: no solver can fix it, so the other advice would mislead.
+    // Report this however small it is: no solver can fix it, so other advice would mislead.
     if (const std::vector<OverPulled> pulled = over_pulled(*part.world); !pulled.empty()) {
         const OverPulled& worst = pulled.front();
         const int decimals = worst.apart - worst.length < 0.01 ? 3 : 2;
@@ -330,7 +330,7 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     const double kept = pace_of(workspace.runtimes).kept;
     if (!workspace.clock.playing || kept >= slow_share || said.text.ends_with(real_time)) return said;
     said.text += at_pace(kept);
-    if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // slower still
+    if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // would be slower still
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
     // If ropes take less than half of a tick, something else is slow.

@@ -10,7 +10,7 @@
 namespace tendril::app {
 
 /// Pick ids: particles by their index in the world; colliders, ties and whole bodies by their index in its
-/// lists. Valid per frame. In a race, the ids in a rival's pane refer to the rival's world.
+/// lists. Valid per frame. In a race, ids in a rival's pane refer to the rival's world.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
@@ -31,22 +31,22 @@ struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body
 };
-/// None if the pick is something else, or the world has changed since.
+/// None if something else was picked, or the world has changed since.
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
 
 /// The point by which a whole body is moved: the middle of its pins, which stay where they are put, or of its
 /// particles.
 glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body);
-/// Whether the body moves with a collider.
+/// True if the body moves with a collider.
 bool is_attached(const NamedWorld& world, const rope::Body& body);
 
 /// Extends a box by a collider, except for planes, which are infinite.
 void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
 
 const Past& rope_past();
-/// Puts everything where the last change left it.
+/// Restores everything to its place after the last change.
 Cure restart_cure();
-/// The same, if the ropes had more links and ties where it leads.
+/// The same, if the ropes had more links and ties then.
 std::optional<Cure> restart_of_torn(const RopePart& part);
 
 class RopeLab final : public Lab {

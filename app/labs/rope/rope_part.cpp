@@ -25,8 +25,7 @@ std::shared_ptr<const Part> RopePart::after_undo() const {
     return part;
 }
 
-/// Keeps the current selection, view, tool and simulation settings. Releases a drag held at that moment,
-/// because none holds it now.
+/// Keeps the current selection, view, tool and simulation settings. Releases a drag of that moment.
 std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
     let_go(*part);

@@ -40,7 +40,7 @@ struct WalkerFigure : OutsideFile {
 std::shared_ptr<const WalkerFigure> read_walker(const std::string& path, const std::string& file = {});
 
 struct Walker {
-    std::shared_ptr<const WalkerFigure> figure;  ///< null: there is none
+    std::shared_ptr<const WalkerFigure> figure;  ///< null: no character
     std::string clip;                            ///< plays in a loop; empty: stands in the rest pose
     glm::vec3 at{0.0f};                          ///< position of its file's origin, metres
     double began = 0.0;                          ///< simulated time at which the clip began
@@ -53,7 +53,7 @@ struct WalkerCapsule {
     rope::Capsule shape;
 };
 std::vector<WalkerCapsule> walker_capsules(const Walker& walker, double time);
-/// Starts its colliders' motion to their placement at `next`, in seconds like `now`. Where the clip restarts
+/// Starts moving its colliders to their placement at `next`, in seconds like `now`. When the clip restarts
 /// they are placed there at once. Removed colliders stay removed.
 void aim_walker(const Walker& walker, NamedWorld& world, double now, double next);
 
@@ -67,7 +67,7 @@ inline constexpr const char* rope_lab = "rope";
 /// Work per tick, mainly links times iterations. Substeps beyond it are dropped; a world whose single substep
 /// exceeds it is refused.
 inline constexpr std::uint64_t max_lab_work = 50'000'000;
-/// The same while a drag moves particles: a substep of 10 000 particles of cloth, 34 ms on one core.
+/// Likewise while a drag moves particles: a substep of 10 000 particles of cloth, 34 ms on one core.
 inline constexpr std::uint64_t max_dragged_work = 1'000'000;
 
 /// The effect of a click on an object in the scene.
@@ -85,11 +85,11 @@ struct Swing {
 /// The first tear of a body.
 struct RopeTear {
     std::string body;
-    std::size_t particle = 0;  ///< of the body as it was
+    std::size_t particle = 0;  ///< in the body before the tear
     float tension = 0.0f;      ///< newtons, in the link that tore
 };
 
-/// The mean force of bodies on a collider, in a tick.
+/// The mean force of bodies on a collider during a tick.
 struct ColliderForce {
     rope::ColliderId collider;
     glm::dvec3 newtons{0.0};
@@ -113,7 +113,7 @@ struct RopeSelection {
     bool operator==(const RopeSelection&) const = default;
 };
 
-/// The frames of a program: `rate` of them a second, whose lengths cover 1 ms to 250 ms at dial 1.
+/// A program's frames: `rate` of them per second, with lengths from 1 ms to 250 ms at dial 1.
 struct Jitter {
     float rate = 60.0f;  ///< Hz; at 60 and dial 0 each frame is a tick
     float dial = 0.0f;
@@ -127,8 +127,8 @@ struct RopeView {
     bool particles = false;  ///< show particles as balls
     bool strain = false;     ///< colour links by their strain
     int sides = 16;          ///< sides of the tube, 3 to 64
-    float thickness = 1.0f;  ///< times as thick as they are: ropes and hair
-    /// Of bodies without a colour of their own.
+    float thickness = 1.0f;  ///< factor on the drawn thickness of ropes and hair
+    /// Colours of bodies without one of their own.
     BodyColour ropes = BodyColour::ByKind, hair = BodyColour::ByKind, cloths = BodyColour::ByKind;
     KindColours colours() const { return {ropes, hair, cloths}; }
     bool operator==(const RopeView&) const = default;
@@ -138,9 +138,9 @@ struct RopeView {
 struct RopeReport {
     std::uint64_t inside = 0;       ///< particles left inside colliders
     std::uint64_t unconverged = 0;  ///< solves that did not converge or were only applied in part
-    std::uint64_t suspended = 0;    ///< unsupported bodies that nevertheless do not fall
+    std::uint64_t suspended = 0;    ///< unsupported bodies that do not fall
     std::uint64_t substeps = 0;     ///< simulated
-    std::uint64_t dropped = 0;      ///< substeps that were not simulated: the frame was too long for them
+    std::uint64_t dropped = 0;      ///< substeps omitted because the frame was too long
     std::uint64_t torn = 0;         ///< stretch links and ties
     float contact_loss = 0.0f;      ///< energy lost to contact, joules
     bool operator==(const RopeReport&) const = default;
@@ -158,16 +158,16 @@ struct RopeSample {
 };
 inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 
-/// A world with its curves and what a drag holds in it: the part's own, and in a race those of other solvers.
+/// A world with its curves and the particles held by a drag: the part's own or, in a race, another solver's.
 struct RopeRacer {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
     std::vector<RopeSample> samples{};  ///< of the last ticks
-    std::optional<Hold> hold{};         ///< in this world: a body may have torn in one of them only
+    std::optional<Hold> hold{};         ///< in this world: a body may have torn in only one of them
     rope::Solver solver() const { return world->settings().solver; }
 };
 
 struct RopePart final : Part, RopeRacer {
-    /// The settings that the scene was opened with: only settings that differ count as changed. Not saved.
+    /// The settings that the scene was opened with: only differences from them count as changes. Not saved.
     rope::Settings usual;
     std::vector<Swing> swings;
     Walker walker;
@@ -178,10 +178,10 @@ struct RopePart final : Part, RopeRacer {
     RopeView view;
     int quiet_ticks = 0;                ///< consecutive ticks without noticeable motion
     std::vector<RopeRacer> rivals;      ///< in a race (rope_time.hpp)
-    std::shared_ptr<const Part> start;  ///< as the last change left it; none before the next tick. Not saved
-    /// In the last tick, of those that bodies touch; none before it. Not saved.
+    std::shared_ptr<const Part> start;  ///< after the last change; none before the next tick. Not saved
+    /// Forces on touched colliders in the last tick; none before it. Not saved.
     std::optional<std::vector<ColliderForce>> forces{};
-    std::vector<RopeTear> tears;  ///< of bodies that exist, in the order of time. Not saved
+    std::vector<RopeTear> tears;  ///< of existing bodies, in order of time. Not saved
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
@@ -215,15 +215,15 @@ inline constexpr EnumNames<RopeTool, 4> rope_tools{
       "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a cloth."},
      {"tie", "Tie", "A click on one particle and then on another ties the two."}}};
 
-// The fields of ropes, cloth, hair and colliders as users see them, and the settings of a body that hangs.
+// The fields of ropes, cloth, hair and colliders as users see them, and the settings of a hanging body.
 
 class Arguments;
 
-/// The settings of rope.set: the library's body, and quantities computed from its particles and links.
-/// Those are empty if the body has no such particles or links.
+/// The settings of rope.set: the library's body, and quantities computed from its particles and links; empty
+/// if the body has no such particles or links.
 struct BodySettings {
     rope::Body body;                       ///< its radius, friction, bending and tear
-    float length = 1.0f;                   ///< metres; a row's of a cloth, a strand's of hair
+    float length = 1.0f;                   ///< metres; of a cloth's row or a hair's strand
     std::optional<float> width{};          ///< metres, across the rows of a cloth
     std::optional<int> segments{};         ///< segments of a rope or of each strand
     std::optional<int> columns{}, rows{};  ///< particles of a cloth
@@ -235,7 +235,7 @@ struct BodySettings {
 };
 
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body);
-/// The rows that the body has: a cloth has no bending.
+/// The fields that the body has: a cloth has no bending.
 std::vector<Field> body_fields(const BodySettings& of);
 
 class RopeEdit;
@@ -251,7 +251,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
 
 namespace tendril::app {
 
-/// Also for the shapes that make bodies, and for patches of hair.
+/// Also for shapes that create bodies, and for patches of hair.
 template <>
 std::span<const FieldText> field_texts<BodySettings>();
 template <>

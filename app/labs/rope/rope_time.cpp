@@ -24,7 +24,7 @@ namespace {
 
 constexpr float still_speed = 1e-4f;  ///< m/s
 
-/// A pseudo-random number from 0 to 1. Unlike the standard's distributions, the same on every machine.
+/// A pseudo-random number from 0 to 1; unlike the standard's distributions, the same on every machine.
 double shuffled(std::uint32_t number) {
     std::uint32_t x = number + 0x9e3779b9u;
     x = (x ^ (x >> 16)) * 0x85ebca6bu;
@@ -166,8 +166,8 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
 
 namespace {
 
-/// Cloth with more than some ties a side may be solved by elimination, whose work grows with the cube of its
-/// side.
+/// A cloth with more than a few ties per side may be solved by elimination, whose work grows with the cube of
+/// its side.
 std::uint64_t work_of_tied_cloth(const rope::State& state) {
     double work = 0.0;
     for (const rope::Body& body : state.bodies) {

@@ -1,4 +1,4 @@
-// Advances time in the Rope lab, in its world and in the rivals of a race: whole ticks, or uneven frames by
+// Advances time in the Rope lab, in its world and in a race's rivals: whole ticks, or uneven frames with
 // frame-time jitter; and swinging colliders.
 #pragma once
 
@@ -24,12 +24,12 @@ struct RopeRuntime final : Runtime {
 };
 
 /// Advances the lab by `seconds`. The result does not depend on how the time is divided into calls, unless
-/// substeps are dropped because of max_lab_work. Any `workspace` works; the same in every tick is fastest.
+/// substeps are dropped because of max_lab_work. Any `workspace` works; keeping one is fastest.
 RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
-/// The work of a substep, for max_lab_work. Not timed, so that every machine drops the same substeps.
+/// The work of a substep, for max_lab_work. Not timed, so every machine drops the same substeps.
 std::uint64_t work_of_substep(const NamedWorld& world);
 
-/// Length in seconds of the frame of that number: even at dial 0, anything from 1 to 250 ms at 1.
+/// Length in seconds of the frame with that number: even at dial 0, from 1 to 250 ms at dial 1.
 double jitter_frame(const Jitter& jitter, std::uint32_t number);
 
 /// Centre of a swinging collider at a simulated time.
@@ -37,21 +37,21 @@ glm::vec3 swing_point(const Swing& swing, double time);
 /// Throws std::invalid_argument if the swing leaves the range of coordinates.
 void require(const Swing& swing);
 
-/// Whether no pin or collider is moving, and no particle moves visibly.
+/// True if no pin or collider is moving, and no particle moves visibly.
 bool at_rest(const RopePart& part);
 
-/// Whether everything is within the bounds of the world.
+/// True if everything is within the bounds of the world.
 bool in_range(const NamedWorld& world);
 
-// A race: the scene by each solver, side by side with one camera. A command that changes the part's own world
-// also changes its rivals' worlds, and all pass the same ticks.
+// A race: the scene with each solver, side by side with one camera. A command that changes the part's own
+// world also changes its rivals' worlds, and all pass the same ticks.
 
 class CommandTable;
 
 /// In the order of the panes: the part itself, then its rivals.
 std::vector<std::reference_wrapper<const RopeRacer>> rope_racers(const RopePart& part);
 RopeSample last_sample(const RopeRacer& racer);
-/// The one that is drawn in a pane; the part itself if there is no such pane.
+/// The racer drawn in a pane; the part itself if there is no such pane.
 const RopeRacer& racer_in(const RopePart& part, std::size_t pane);
 inline const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
     return *racer_in(part, pane).world;
@@ -61,17 +61,17 @@ inline const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
 void begin_race(RopePart& part);
 /// The part with the rival's world, samples and drag in place of its own.
 RopePart part_of_rival(const RopePart& part, const RopeRacer& rival);
-/// Applies to each rival the command that changed `part`'s own world, which was `old` before. A rival that
-/// lacks the named object, such as a tie that tore there, stays as it is. If the command chose a rival's
-/// solver, the two change places.
+/// Applies to each rival the command that changed `part`'s own world, which was `old` before. A rival without
+/// the named object, such as a tie that tore there, does not change. If the command chose a rival's solver,
+/// the two swap places.
 void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change);
-/// Sets the settings of all worlds; each rival keeps its solver, or changes places as above.
+/// Sets the settings of all worlds; each rival keeps its solver, or swaps places as above.
 void take_settings(RopePart& part, const rope::Settings& settings);
 
 glm::vec3 rope_solver_colour(const Palette& palette, rope::Solver solver);
 /// "length error 0.02 %, 12.30 J"
 std::string racer_text(const RopeSample& last);
-/// Titles of the panes; none without a race. `cost`: with the time per tick.
+/// Titles of the panes; none without a race. `cost`: including the time per tick.
 std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, bool cost);
 
 void add_rope_race_commands(CommandTable& table);

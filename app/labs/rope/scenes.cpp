@@ -23,10 +23,10 @@ struct SceneCollider {
 struct SceneBody {
     std::string name;
     std::variant<rope::RopeShape, rope::ClothShape, rope::HairShape> shape;
-    std::vector<glm::vec3> path;   ///< along which a rope lies, evenly; empty: straight
-    double end_mass = 0.0;         ///< of a rope's last particle, kg; 0: as its density says
-    std::vector<glm::dvec3> fold;  ///< of a cloth: offsets of a row's particles from its unfolded first one
-    rope::HairPatch patch;         ///< that hair grows from, on `attach` if given
+    std::vector<glm::vec3> path;   ///< a rope lies evenly along it; empty: straight
+    double end_mass = 0.0;         ///< kg, mass of a rope's last particle; 0: by its density
+    std::vector<glm::dvec3> fold;  ///< for a cloth: offsets of a row's particles from the first, unfolded one
+    rope::HairPatch patch;         ///< where hair grows, on `attach` if given
     std::string attach;
     bool hits_itself = false;
 };
@@ -135,7 +135,7 @@ glm::dvec3 along(const std::vector<glm::vec3>& line, double distance) {
     return glm::dvec3(line.back());
 }
 
-/// Places a rope along its path at rest, and weighs down its end.
+/// Places a rope along its path at rest, and sets the mass of its end.
 void shape_rope(const SceneBody& given, const rope::Body& body, rope::State& state) {
     double length = 0.0;
     for (std::size_t i = 1; i < given.path.size(); ++i)
@@ -152,7 +152,7 @@ void shape_rope(const SceneBody& given, const rope::Body& body, rope::State& sta
     if (given.end_mass > 0.0) state.mass[body.first + body.count - 1] = given.end_mass;
 }
 
-/// Folds a cloth. The creases are pressed: the rest lengths of shear and bend links are those of the folded
+/// Folds a cloth, with pressed creases: the rest lengths of shear and bend links are those of the folded
 /// cloth.
 void fold_cloth(const std::vector<glm::dvec3>& fold, const rope::Body& body, rope::State& state) {
     for (std::size_t row = body.first; row < body.first + body.count; row += body.row)

@@ -1,4 +1,4 @@
-// A stroke of the mouse that cuts the ropes and cloths that it crosses in the view, whatever is in front.
+// A mouse stroke that cuts the ropes and cloths that it crosses in the view, at any depth.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float beyond_edge = 0.3f;  ///< cells by which a cut goes beyond an edge that it reaches
+constexpr float beyond_edge = 0.3f;  ///< cells by which a cut extends past an edge that it reaches
 
 float cross_of(glm::vec2 a, glm::vec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -23,7 +23,7 @@ float cross_of(glm::vec2 a, glm::vec2 b) {
 /// An end of a cut, in the cloth's own columns and rows.
 struct CutEnd {
     glm::vec2 cell{0.0f};
-    bool at_edge = false;  ///< at an edge of the crossed surface; else the stroke ends here
+    bool at_edge = false;  ///< at an edge of the crossed surface; otherwise the stroke ends here
 };
 using CutLine = std::deque<CutEnd>;
 
@@ -47,7 +47,7 @@ class KnifeStroke {
     }
 
   private:
-    /// The fraction along the line between two particles at which it crosses the stroke; none: it does not.
+    /// The fraction along the line between two particles at which it crosses the stroke; empty if nowhere.
     std::optional<float> crossing(std::size_t a, std::size_t b) const {
         if (!pixels_[a] || !pixels_[b]) return std::nullopt;
         const glm::vec2 line = *pixels_[b] - *pixels_[a], off = *pixels_[a] - from_;
@@ -137,7 +137,7 @@ class KnifeStroke {
         return lines;
     }
 
-    /// Adds the nearest of the others at either end of a line, if any touches it.
+    /// Adds to either end of a line the nearest other line that touches it.
     static bool extend(CutLine& line, std::vector<CutLine>& others) {
         float within = 1e-2f;
         const CutLine* best = nullptr;
@@ -159,7 +159,7 @@ class KnifeStroke {
         return true;
     }
 
-    /// Whether a line turns at `at`, by more than a threshold of a cell.
+    /// True if a line turns at `at`, by more than a threshold of a cell.
     static bool bends(glm::vec2 before, glm::vec2 at, glm::vec2 after) {
         constexpr float threshold = 0.01f;
         const glm::vec2 whole = after - before;
@@ -167,7 +167,7 @@ class KnifeStroke {
         return length == 0.0f || std::abs(cross_of(whole, at - before)) > threshold * length;
     }
 
-    /// The points at which a line turns, and its ends: beyond an edge that it reaches.
+    /// The points where a line turns, and its ends, extended past an edge that it reaches.
     static Json points_of(const rope::Body& cloth, CutLine line) {
         const glm::vec2 most(static_cast<float>(cloth.row), static_cast<float>(cloth.rows()));
         const auto beyond = [&](const CutEnd& end, const CutEnd& before) {

@@ -58,7 +58,7 @@ void collide(RopeEdit& edit, const Arguments& given) {
             if (edit.seen().collides(a, b) != on || !on) edit.world().set_collides(a, b, on);
 }
 
-/// Whether a body collides with itself and all others.
+/// True if a body collides with itself and all others.
 bool collides_with_all(const NamedWorld& world, const std::string& name) {
     for (const std::string& other : bodies_given(world, all_bodies))
         if (!world.collides(name, other)) return false;

@@ -30,7 +30,7 @@ void restart(RopePart& part, const Arguments&) {
     part = dynamic_cast<const RopePart&>(*part.at_moment(part.start));
 }
 
-/// Opens a scene with its own view. The display settings and the tool stay.
+/// Opens a scene with its own view. Display settings and the tool do not change.
 void take_scene(Workspace& workspace, const Arguments& given) {
     const RopeSceneEntry& entry =
         named(rope_scenes(), std::mem_fn(&RopeSceneEntry::name), given.text("name"), "scene");
@@ -45,7 +45,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 
-/// Of rope.settings, and of rope.wind, a name that is easy to find: velocity, gusts and still_air.
+/// rope.settings and, under a name that is easy to find, rope.wind: velocity, gusts and still_air.
 void settings(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
     if (given.has("velocity")) wanted.wind = given.point("velocity");
@@ -102,12 +102,12 @@ void add_world_commands(CommandTable& table) {
 
 namespace {
 
-/// A collider's shape, by its kind.
+/// The field for a collider's shape, by its kind.
 const Field& shape_row() {
     return fields<rope::Collider>().front();
 }
 
-/// The collider with the given fields of its shape. Refuses fields that its kind lacks.
+/// The collider with the given fields of its shape. Refuses fields that its kind does not have.
 rope::Shape changed(rope::Collider collider, const Arguments& given) {
     const FieldsIn in(shape_row().kind(&collider).table(), shape_row().address_in(&collider));
     for (const FieldText& text : field_texts<rope::Shape>())
@@ -171,7 +171,7 @@ void move(RopeEdit& edit, const Arguments& given) {
     edit.move_collider(name, to);
 }
 
-/// A swing continues from where it is, so that changing its amplitude or period does not make it jump.
+/// A swing continues from its present position: changing its amplitude or period must not make it jump.
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
     const std::string name = given.text("name");

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double measuring_rate = 60.0;
 
-/// The hand's input up to the last full quarter of a second, over a time that is always still remembered: the
-/// measurements then change four times a second, not at every tick, and stay readable.
+/// The hand's input up to the last full quarter of a second, over a time that is still remembered: the
+/// measurements then change four times a second, not every tick, and stay readable.
 InputRows hand_rows(const SignalPart& part) {
     constexpr double every = 0.25, same = 1e-6;
     InputRows rows;
@@ -102,7 +102,7 @@ SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, InputRows
     return source;
 }
 
-/// The source of the measured rows. Rows that follow from the input need not be compared.
+/// The source of the measured rows. Rows derived from the input need not be compared.
 SignalRuntime::Source SignalRuntime::measured(const SignalPart& part) {
     return source_of(part, part.input.kind == InputKind::Hand ? hand_rows(part) : InputRows());
 }
@@ -165,7 +165,7 @@ Span widened(const Span& input, std::span<const std::span<const double>> outputs
 
 Curve curve_of(std::string name, glm::vec3 colour, std::span<const double> time,
                std::span<const double> values, double from, double to) {
-    constexpr double most = 1e30;  // leaves the plot room to compute in floats
+    constexpr double most = 1e30;  // keeps the plot within the range of floats
     Curve curve{std::move(name), colour, {}};
     curve.points.reserve(time.size());
     for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)

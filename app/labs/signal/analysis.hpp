@@ -1,6 +1,5 @@
-// Measurements and fits of the Signal lab: of each filter, of the whole chain at several frame rates, of
-// every kind of filter. All are functions of the part, recomputed only when their inputs change; and the
-// ranges of plots.
+// Measurements and fits of the Signal lab: each filter, the whole chain at several frame rates, every kind of
+// filter. All are functions of the part, recomputed only when their inputs change. Also the ranges of plots.
 #pragma once
 
 #include <memory>
@@ -15,8 +14,8 @@
 
 namespace tendril::app {
 
-// Fits every kind of filter to the desired response, a slice in every tick, so that the window stays
-// responsive. The progress is stored in the part and depends on the number of ticks, never on the clock.
+// Fits every kind of filter to the desired response, a slice per tick, so that the window stays responsive.
+// The progress is stored in the part and depends on the number of ticks, not on the clock.
 
 /// The search in progress. It is a function of the part: if lost, it is redone up to the part's progress.
 class FitWork {
@@ -48,12 +47,12 @@ class FitWork {
 struct ChainAnalysis {
     std::vector<double> time, input;
     std::vector<std::vector<double>> outputs;  ///< each stage's output
-    std::vector<signal::Measures> stages;      ///< of each stage's output against the input, as plotted
+    std::vector<signal::Measures> stages;      ///< each stage's output compared with the input, as plotted
     signal::Measures whole;                    ///< of the shown lane
     signal::RateComparison rates;              ///< the shown lane's
 };
 
-/// A stage, with its measures; or a kind that no enabled stage has, alone on the input with its defaults.
+/// A stage with its measures; or a kind that no enabled stage has, alone on the input with its defaults.
 struct ShelfPoint {
     signal::Filter filter;
     std::optional<std::size_t> stage;
@@ -64,9 +63,9 @@ struct ShelfPoint {
 class SignalRuntime final : public Runtime {
   public:
     const ChainAnalysis& chain(const SignalPart& part);
-    /// Stages, then kinds: those that have both a lag and a jitter.
+    /// Stages, then kinds; only those with both a lag and a jitter.
     const std::vector<ShelfPoint>& shelf(const SignalPart& part);
-    /// The output of each stage for the input of the last ticks.
+    /// Each stage's output for the input of the last ticks.
     const std::vector<std::vector<double>>& recent(const SignalPart& part);
 
     FitWork fit_work;
@@ -74,10 +73,10 @@ class SignalRuntime final : public Runtime {
   private:
     /// All inputs to the measurements.
     struct Source {
-        std::vector<SignalStage> stages;  ///< without their states
+        std::vector<SignalStage> stages;  ///< without their state
         std::size_t lane = 0;
         SignalInput input;
-        InputRows rows;  ///< empty if they follow from `input`
+        InputRows rows;  ///< empty if derived from `input`
         bool operator==(const Source&) const = default;
     };
     static Source source_of(const SignalPart& part, InputRows rows);
@@ -93,7 +92,7 @@ inline SignalRuntime& signal_runtime(const Workspace& workspace) {
     return workspace.runtimes.of<SignalRuntime>(signal_lab);
 }
 
-// The y range of a plot of signals: all of the input, so that it stays legible, and a limited part of the
+// The y range of a plot of signals: the whole input, so that it stays legible, and a limited part of the
 // outputs. A curve that grows without bound leaves the plot.
 
 struct Span {
@@ -101,11 +100,11 @@ struct Span {
     bool operator==(const Span&) const = default;
 };
 
-/// The range of an input: everything a wave can reach; otherwise the range of `values`, the rows shown.
+/// The range of an input: everything that a wave can reach; otherwise the range of the shown rows, `values`.
 Span span_of(const SignalInput& input, std::span<const double> values);
 
 /// Adds a margin and makes room for the outputs: in steps, so that the axis does not follow every swing, and
-/// by no more than the input's own range at either end.
+/// at most by the input's range at either end.
 Span widened(const Span& input, std::span<const std::span<const double>> outputs);
 
 /// The points of a curve with times from `from` to `to`.

@@ -36,7 +36,7 @@ void axis(const View& view, DrawList& list, double highest) {
     }
 }
 
-/// The ball's: blue while a response is recorded, else the shown output's.
+/// The ball's colour: blue while a response is recorded, otherwise the shown output's.
 glm::vec3 output_colour(const Palette& palette, const SignalPart& part) {
     const std::optional<std::size_t> last = shown_stage(part);
     return last && !part.recording ? stage_colour(palette, part.stages[*last]) : palette.head;
@@ -144,7 +144,7 @@ void scrolling_plot(const Workspace& workspace, const Palette& palette, float he
     plot("signal", curves, time_axes(span, from, to), height);
 }
 
-/// From the slowest rate, reddish, to the fastest; uneven frames have a colour of their own.
+/// From reddish for the slowest rate to the fastest; uneven frames have their own colour.
 glm::vec3 rate_colour(const Palette& palette, const signal::FrameRate& rate) {
     if (rate.jittered) return palette.selection;
     if (rate.hz < 20.0) return palette.limit;
@@ -285,7 +285,7 @@ void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
         for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i)
             lower.emplace_back(kind_title(part.fits[i].filter), fit_colour(colours, i));
     }
-    // The key keeps its height while a response is drawn, or the plot would move away from under the mouse.
+    // The key keeps its height while a response is drawn: otherwise the plot would move away from the mouse.
     if (!lower.empty()) colour_key(lower, fit ? 1 : 3);
     const float rest = std::max(8.0f, ImGui::GetContentRegionAvail().y / line - 0.5f);
     if (part.plot == SignalPlot::Rates) rates_plot(workspace, colours, rest);

@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-/// The filter alone, without what the lab has beside it.
+/// Only the filter, without the lab's own members.
 std::span<const Field> filter_row() {
     return fields<SignalStage>().first(1);
 }

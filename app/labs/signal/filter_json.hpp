@@ -1,4 +1,4 @@
-// Filters and their states as JSON, for FILTER.json, commands, scene files and --state, with the words of
+// Filters and their states as JSON, for FILTER.json, commands, scene files and --state, and the texts of
 // their fields.
 //
 //     {"kind": "spring", "strength": 4, "critical_damping": 0.5}
@@ -36,8 +36,8 @@ std::string kind_names();
 Json filter_state_json(const signal::FilterState& state);
 signal::FilterState filter_state_from_json(const JsonPlace& place);
 
-/// Prefixes `error`, which begins with a JSON path under `where`, with its line in `text`. The text must
-/// contain at least one filter.
+/// Adds the line in `text` to `error`, which begins with a JSON path under `where`. The text must contain at
+/// least one filter.
 std::string with_line(const std::string& text, const std::string& where, const std::string& error);
 
 // Labels and help for the fields of filters.

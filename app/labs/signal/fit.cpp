@@ -56,7 +56,7 @@ class KindFit final : public FitTask {
             space_[d].field->set_number(signal::fields_in(filter), space_[d].value(at[d]));
         if (auto* switching = std::get_if<signal::Hysteresis>(&filter))
             if (switching->low > switching->high) std::swap(switching->low, switching->high);
-        // max_speed acts through the distance max_speed * smooth_time, so search that.
+        // max_speed acts through the distance max_speed * smooth_time, so search for that.
         if (auto* damp = std::get_if<signal::SmoothDamp>(&filter))
             damp->max_speed = std::min(damp->max_speed / std::max(damp->smooth_time, 1e-4), 1e9);
     }
@@ -67,7 +67,7 @@ class KindFit final : public FitTask {
         return trial_.residual(shifts() ? trial_.best_shift() : 0.0);
     }
 
-    /// A constant force shifts a spring's output by force / w^2: it follows from the other parameters.
+    /// A constant force shifts a spring's output by force / w^2, so it follows from the other parameters.
     bool shifts() const { return std::holds_alternative<signal::Spring<>>(filter_); }
 
     signal::Filter filter_at(std::span<const double> at) {
@@ -81,7 +81,7 @@ class KindFit final : public FitTask {
         return filter;
     }
 
-    /// If a threshold may lie anywhere between two input values, puts it in the middle.
+    /// Moves a threshold that may be anywhere between two input values to their middle.
     void centre(std::vector<double>& at, std::size_t d) {
         const double enough = residual(at) * (1.0 + 1e-9) + 1e-12;
         const auto edge = [&](double outside) {
@@ -101,7 +101,7 @@ class KindFit final : public FitTask {
         at[d] = dimension.at(0.5 * (dimension.value(low) + dimension.value(high)));
     }
 
-    /// Resets each parameter that makes no difference to its default.
+    /// Resets each parameter without effect to its default.
     void leave_defaults(signal::Filter& filter) {
         const signal::Filter blank = kind_.blank();
         for (const Field& field : kind_.table()) {
@@ -192,7 +192,7 @@ Minimiser::Minimiser(Objective objective, Search search)
     best_.at.assign(search_.dimensions, 0.5);
 }
 
-/// Evaluates points over the whole range, then improves each of the best, then refines the best of all.
+/// Evaluates points over the whole range, then improves each of the best ones, then refines the best.
 bool Minimiser::advance() {
     const std::size_t share = shares_++;
     if (dimensions() == 0) {
@@ -254,7 +254,7 @@ void Minimiser::spread() {
     for (Candidate& each : all) candidates_.push_back(std::move(each.at));
 }
 
-/// The best of evenly spaced values in each stepped dimension in turn, then of finer ones around it.
+/// In each stepped dimension in turn, the best of evenly spaced values, then of finer ones around it.
 Minimiser::Point Minimiser::scan(Point at) {
     constexpr int cells = 48;
     double here = value(at);
@@ -290,7 +290,7 @@ void Minimiser::improve(int algorithm, Point at, double step, std::size_t evalua
     nlopt_set_xtol_rel(optimiser, 1e-10);
     nlopt_set_stopval(optimiser, search_.enough);
     double last = 0.0;
-    // The result does not matter: value() keeps the best of all evaluations.
+    // Ignore the result: value() keeps the best of all evaluations.
     static_cast<void>(nlopt_optimize(optimiser, at.data(), &last));
     nlopt_destroy(optimiser);
 }

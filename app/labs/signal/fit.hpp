@@ -1,5 +1,5 @@
-// Finds the parameters with which a filter best reproduces a desired response: drawn, recorded, or measured
-// elsewhere. Shows which kind of filter to choose, and with which parameters.
+// Finds the parameters with which a filter best reproduces a desired response that was drawn, recorded, or
+// measured elsewhere. Shows which kind of filter to choose, and with which parameters.
 //
 // Deterministic: the same rows give the same result in every run of a build. Bounded by evaluations, never by
 // time: a few hundred runs of a filter over the rows for one parameter, twenty thousand for six. All kinds
@@ -44,28 +44,28 @@ class FitTask {
 std::unique_ptr<FitTask> begin_fit(const signal::Kind& kind, const FitProblem& problem,
                                    const signal::Filter* like = nullptr);
 
-/// The best fit of a kind, searched from `like` too if that is of the kind. A parameter that this input does
-/// not determine stays at its default; a threshold that may be anywhere in a range is put in its middle.
+/// The best fit of a kind; the search also starts from `like` if it is of that kind. A parameter that this
+/// input does not determine stays at its default; a threshold is put in the middle of its possible range.
 Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like = nullptr);
 
-/// Sorts by residual, best first. Residuals up to `indistinguishable` are equal; then the filter with fewer
-/// parameters comes first.
+/// Sorts by residual, best first. Residuals up to `indistinguishable` are equal; among those, fewer
+/// parameters come first.
 inline constexpr double indistinguishable = 1e-6;
 void rank(std::vector<Fit>& fits);
 
 /// The residual of a filter with its present parameters.
 double residual_of(const signal::Filter& filter, const FitProblem& problem);
 
-/// Maximum less minimum; 1 if the values are constant.
+/// Maximum minus minimum; 1 if the values are constant.
 double range_of(std::span<const double> values);
 
-// Two kinds of filter with fits of their own.
+// Two kinds of filter have their own fits.
 
 /// Key values and slopes follow from the key times by linear least squares. Adds keys where the residual is
-/// largest while that helps, and improves their times.
+/// largest as long as that helps, and improves their times.
 std::unique_ptr<FitTask> begin_curve_fit(const FitProblem& problem);
 
-/// Tries with and without clamp and interpolation, and returns the simplest whose residual is close to the
+/// Tries all combinations of clamp and interpolation, and returns the simplest whose residual is close to the
 /// best. The range map stays off, since scale and bias can express it.
 std::unique_ptr<FitTask> begin_scale_fit(const FitProblem& problem);
 
@@ -93,7 +93,7 @@ class Trial {
         }
         return std::sqrt(squares / rows()) / range_;
     }
-    /// The shift of the last run's outputs with the smallest residual.
+    /// The constant that, added to the last run's outputs, gives the smallest residual.
     double best_shift() const {
         double sum = 0.0;
         for (std::size_t i = 0; i < output_.size(); ++i) sum += problem_.response[i] - output_[i];
@@ -120,15 +120,15 @@ struct FitFacts {
     explicit FitFacts(const FitProblem& problem);
 
     double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, ignoring values of nearly 0
-    double duration = 1.0;         ///< seconds of all rows
+    double duration = 1.0;         ///< duration of all rows, seconds
     double input_low = 0.0, input_high = 1.0;
     double response_low = 0.0, response_high = 1.0;
-    double largest_jump = 1.0;  ///< the input's, from row to row
-    double speed = 1.0;         ///< the input's: root mean square, 1/s
+    double largest_jump = 1.0;  ///< of the input, from row to row
+    double speed = 1.0;         ///< of the input: root mean square, 1/s
 
     double input_range() const { return input_high - input_low; }
     double response_range() const { return response_high - response_low; }
-    double span() const;  ///< the larger range; never 0
+    double span() const;  ///< the larger of both ranges; never 0
 };
 
 /// A searched parameter: maps its values from `low` to `high` to 0 to 1.
@@ -148,7 +148,7 @@ struct Dimension {
     double at(double value) const;
 };
 
-/// The space of any kind but curve and scale_bias_clamp, which have fits of their own.
+/// The search space of any kind except curve and scale_bias_clamp, which have their own fits.
 std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts);
 
 /// The dimension of one parameter; `field` must be a field of the kind.
@@ -171,7 +171,7 @@ struct Search {
     std::size_t dimensions = 1;
     /// Dimensions in which the function is a step function, as for a threshold: local methods fail there.
     std::vector<std::size_t> stepped{};
-    /// Points to try in addition.
+    /// Additional points to try.
     std::vector<std::vector<double>> starts{};
     double enough = 0.0;  ///< stop at this value or below
 };

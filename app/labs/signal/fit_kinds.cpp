@@ -1,5 +1,5 @@
-// Fits of the two kinds with methods of their own. A curve's output depends on the present input alone, so
-// every row is a point of it.
+// Fits of the two kinds with their own methods. A curve's output depends only on the present input, so every
+// row is a point of it.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -212,7 +212,7 @@ double place_of_wide(double factor) {
     return 0.5 * (low + high);
 }
 
-/// The least squares line through the rows, by its values at the lowest and the highest input.
+/// The least squares line through the rows, given by its values at the lowest and the highest input.
 struct Line {
     double at_low = 0.0, at_high = 0.0;
 };
@@ -230,7 +230,7 @@ Line regression(const FitProblem& problem, const FitFacts& facts, double low, do
     return {slope * facts.input_low + bias, slope * facts.input_high + bias};
 }
 
-/// A search: which stages are on, and whether the clamp's levels follow from the rest by least squares.
+/// One search: which stages are on, and whether the clamp's levels follow from the rest by least squares.
 struct BentPart {
     bool clamp = false, interp = false, levels_follow = false;
 };
@@ -238,7 +238,7 @@ constexpr BentPart parts[] = {{false, false, false}, {true, false, true}, {true,
                               {false, true, false},  {true, true, true},  {true, true, false}};
 
 /// A clamped line by its bends: `low` up to the input `at`, `high` from at + width on. Scale and bias would
-/// be equivalent, but for a steep clamped line they lie far outside the range of the response.
+/// be equivalent, but for a steep clamped line they are far outside the response's range.
 struct Bends {
     double at = 0.0, width = 1.0, low = 0.0, high = 1.0;
     double share(double input) const { return std::clamp((input - at) / width, 0.0, 1.0); }
@@ -329,7 +329,7 @@ class ScaleFit final : public FitTask {
     }
 
     /// With levels 0 and 1, the output would be the weight of `high`, and the rest the weight of `low`. The
-    /// direction in which the response moves gives the speed, so both levels follow by linear least squares.
+    /// response's direction gives the speed, so both levels follow by linear least squares.
     void set_levels(Bends& bends, std::span<const double> speeds) const {
         const Dimension dimension = speed_dimension();
         const double rising = speeds.empty() ? 0.0 : dimension.value(speeds[0]);
@@ -381,7 +381,7 @@ class ScaleFit final : public FitTask {
         return filter;
     }
 
-    /// The bends of a line that is clamped to the range of the response.
+    /// The bends of a line clamped to the response's range.
     Bends bends_of(const Line& line) const {
         const double slope = (line.at_high - line.at_low) / input_range();
         Bends bends{facts_.input_low, input_range(), facts_.response_low, facts_.response_high};
@@ -440,7 +440,7 @@ class ScaleFit final : public FitTask {
     std::vector<Fit> fits_;            ///< the completed searches' fits
     std::size_t part_ = 0;             ///< index in `parts` of the present search
     std::vector<double> bends_start_;  ///< the best point of the search with dependent levels
-    int evaluations_ = 0;              ///< evaluations of searches that only provided a start
+    int evaluations_ = 0;              ///< evaluations of searches that only gave a start
     std::optional<Minimiser> minimiser_;
 };
 

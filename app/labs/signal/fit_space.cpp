@@ -115,7 +115,7 @@ std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts
         {"rate_limit", "fall", 1e-3 * span_per_duration, 2.0 * span_per_shortest, Scale::Ratio},
         {"smooth_damp", "smooth_time", 0.25 * facts.shortest, 2.0 * facts.duration, Scale::Ratio},
         {"smooth_damp", "max_speed", 1e-4 * span, 2.0 * span,
-         Scale::Ratio},  // times smooth_time: see fit.cpp
+         Scale::Ratio},  // multiplied by smooth_time: see fit.cpp
         {"spring_semi_implicit", "strength", 0.05 * per_duration, 0.5 * per_shortest, Scale::Ratio},
         {"spring_semi_implicit", "critical_damping", 0.0, 4.0, Scale::Cube},
         {"spring", "strength", 0.05 * per_duration, 8.0 * per_shortest, Scale::Ratio},
@@ -173,8 +173,8 @@ void add_smooth_damps(std::vector<signal::Filter>& guesses, const FitProblem& pr
     }
 }
 
-/// An overdamped spring decays at about pi * strength / damping and shows little else, so strength and
-/// damping must be found together.
+/// An overdamped spring decays at about pi * strength / damping and shows little else, so search strength and
+/// damping together.
 void add_springs(std::vector<signal::Filter>& guesses, const FitFacts& facts) {
     for (const double rate : by_ratio(0.2 / facts.duration, 1.0 / facts.shortest, 12))
         for (const double damping : {3.0, 8.0, 20.0, 50.0})
@@ -184,7 +184,7 @@ void add_springs(std::vector<signal::Filter>& guesses, const FitFacts& facts) {
                                                    .target_velocity_amount = amount});
 }
 
-/// The switch turns on at `high` and above, and off at `low` and below: each row bounds both.
+/// The switch turns on at or above `high`, and off at or below `low`: each row bounds both.
 void add_hysteresis(std::vector<signal::Filter>& guesses, const FitProblem& problem, const FitFacts& facts) {
     const double margin = 0.05 * facts.input_range();
     const double middle = 0.5 * (facts.response_low + facts.response_high);

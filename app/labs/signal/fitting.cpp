@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t share_rows = 200'000;  ///< rows that filters run over in a tick
+constexpr std::size_t share_rows = 200'000;  ///< rows processed by filters per tick
 
 const signal::Filter* of_kind(const std::vector<signal::Filter>& filters, const signal::Kind& kind) {
     const auto found = std::ranges::find_if(
@@ -71,7 +71,7 @@ void FitWork::advance(SignalPart& part) {
 
 namespace {
 
-/// Draws a stroke into the desired response, which starts as the output of the chain.
+/// Draws a stroke into the desired response, which is initially the chain's output.
 void draw(SignalPart& part, const Arguments& given) {
     end_recording(part);
     if (part.wanted.empty()) {
@@ -108,7 +108,7 @@ void take_numbers(SignalPart& part, const Json& list) {
     part.wanted = std::move(wanted);
 }
 
-/// A file with an input of its own replaces the input; otherwise it needs one row for each row of the lab's.
+/// A file with its own input replaces the input; otherwise it needs one row for each row of the lab's input.
 void take_file(SignalPart& part, const std::string& path) {
     const std::string text = read_text_file(path);
     InputRows rows;

@@ -103,9 +103,9 @@ std::string kind_title(const signal::Filter& filter) {
 }
 
 std::string rows_text(const InputRows& rows) {
-    constexpr double even = 1.15;  // times of 60 Hz in whole milliseconds are 16 and 17 apart
+    constexpr double even = 1.15;  // at 60 Hz, times in whole milliseconds are 16 and 17 apart
     double shortest = rows.back().dt, longest = shortest;
-    for (std::size_t i = 1; i < rows.size(); ++i)  // the first row's is a copy of the second's
+    for (std::size_t i = 1; i < rows.size(); ++i)  // the first row's dt is a copy of the second's
         shortest = std::min(shortest, rows[i].dt), longest = std::max(longest, rows[i].dt);
     const std::string spread =
         longest <= even * shortest
@@ -126,7 +126,7 @@ std::string stage_title(const SignalPart& part, std::size_t stage) {
 }
 
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
-    // Put these above the list, whose length they change.
+    // Above the list, because they change its length.
     add_button(emit);
     const bool chosen = part.selected.has_value();
     const std::size_t at = part.selected.value_or(0);
@@ -289,7 +289,7 @@ float reading_column() {
     return 4.1f * ImGui::GetFontSize();  // holds "1184.2 %"
 }
 
-/// How many filters' numbers fit beside their names.
+/// Number of filters whose numbers fit beside their names.
 std::size_t filters_a_row() {
     const float two = ImGui::CalcTextSize("rate difference").x + 2.0f * reading_column();
     return two <= ImGui::GetContentRegionAvail().x ? 2 : 1;
@@ -442,7 +442,7 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
     const double range = span.high - span.low, low = span.low - range, high = span.high + range;
     for (const double value : part.wanted)
         span.low = std::min(span.low, value), span.high = std::max(span.high, value);
-    if (!drawn) {  // a stroke starts from the output of the chain
+    if (!drawn) {  // a stroke starts from the chain's output
         for (const double value : signal::run(enabled_filters(part), rows)) {
             span.low = std::min(span.low, std::max(value, low));
             span.high = std::max(span.high, std::min(value, high));

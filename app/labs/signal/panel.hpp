@@ -15,7 +15,7 @@ namespace tendril::app {
 std::string kind_title(const signal::Filter& filter);
 std::string kind_title(const signal::Kind& kind);
 
-/// The same of a stage, numbered if there are several of its kind.
+/// Likewise for a stage, numbered if there are several of its kind.
 std::string stage_title(const SignalPart& part, std::size_t stage);
 /// "600 rows in 10 s, 16.7 ms apart", or "uneven: 4 ms to 31 ms apart".
 std::string rows_text(const InputRows& rows);

@@ -20,10 +20,10 @@ Argument filter_argument(Argument place) {
     });
 }
 
-/// The fields of all kinds, each name once, with a range that covers every kind that has it.
+/// The fields of all kinds, each name once, with a range that covers every kind with that field.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
-    std::vector<std::string> owners;  // the kinds that have each argument
+    std::vector<std::string> owners;  // the kinds with each argument
     const auto add = [&](Argument argument, const signal::Kind& kind) {
         const auto known = std::ranges::find(arguments, argument.name, &Argument::name);
         if (known == arguments.end()) {
@@ -60,7 +60,7 @@ std::size_t stage_index(const SignalPart& part, const Arguments& given, const ch
                   std::to_string(index));
 }
 
-/// Keeps those that are not given.
+/// Parameters that are not given keep their values.
 void set_parameters(signal::Filter& filter, const Arguments& given) {
     const JsonPlace place(given.json(), "");
     load_known_fields(place, {signal::kind_of(filter).table(), signal::fields_in(filter)},

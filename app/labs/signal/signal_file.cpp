@@ -74,7 +74,7 @@ SignalInput load_input(const JsonPlace& place) {
     return input;
 }
 
-/// A stage of a preset has no state; without a colour it has that of its place.
+/// A preset's stage has no state, and by default the colour of its place.
 SignalStage load_stage(const JsonPlace& place, std::size_t at, bool preset = false) {
     SignalStage stage;
     load_known_fields(place, stage, {"state"});

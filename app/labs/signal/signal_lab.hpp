@@ -62,7 +62,7 @@ void add_filter_commands(CommandTable& table);
 void add_input_commands(CommandTable& table);
 void add_fit_commands(CommandTable& table);
 
-/// Presets: chains of filters, each with an input and a plot that show its point. Data in presets.json.
+/// Presets: chains of filters, each with an input and plot that show its purpose. Data in presets.json.
 struct SignalPreset {
     std::string name, title;
     std::string point;  ///< things to notice and to try

@@ -149,8 +149,8 @@ double phase(double time, double period) {
     return periods - std::floor(periods);
 }
 
-/// Interpolates smoothly between random values a quarter of a period apart, plus an error of about a tenth of
-/// that at 60 Hz.
+/// Interpolates smoothly between random values a quarter of a period apart, and adds an error of about a
+/// tenth of that at 60 Hz.
 double noise(double time, double period) {
     const double place = 4.0 * time / period;
     const double first = std::floor(place), u = place - first;
@@ -161,7 +161,7 @@ double noise(double time, double period) {
 }
 
 /// The input of a recording at `time`: each row holds for the dt that ends with it. Starts with the first
-/// row; the end of each repetition has the last.
+/// row; each repetition ends with the last.
 double played(const InputRows* rows, double time) {
     const double length = length_of(rows);
     if (length <= 0.0) return 0.0;

@@ -32,7 +32,7 @@ inline constexpr EnumNames<InputKind, 6> input_kinds{
 
 inline constexpr double min_input_period = 0.02, max_input_period = 60.0;  ///< seconds
 inline constexpr double max_amplitude = 1e6;
-inline constexpr std::size_t max_input_rows = 36'000;  ///< in a recording: ten minutes at 60 Hz
+inline constexpr std::size_t max_input_rows = 36'000;  ///< of a recording: ten minutes at 60 Hz
 
 using InputRows = std::vector<signal::Sample>;
 
@@ -50,15 +50,15 @@ struct SignalInput {
 };
 
 /// The input at a time of the lab, seconds from 0. A square wave is low at 0 and high right after, so that
-/// frames of every rate that begin at 0 see its jumps at the same time.
+/// frames that begin at 0 see its jumps at the same time at every rate.
 double input_at(const SignalInput& input, double time);
 
 /// The length of a recording, seconds; 0 if there is none.
 double length_of(const InputRows* rows);
 
 /// Rows of the input from 0 on, long enough to measure: a few periods, or a recording, up to
-/// max_measured_seconds. The first row is at 0 and has a dt of nearly 0: filters start from it. `rate`: rows
-/// per second. Empty for the hand.
+/// max_measured_seconds. The first row is at 0 with a dt of nearly 0: filters start from it. `rate`: rows per
+/// second. Empty for the hand.
 InputRows measuring_rows(const SignalInput& input, double rate);
 inline constexpr double max_measured_seconds = 10.0;
 
@@ -70,9 +70,9 @@ inline constexpr std::size_t max_wanted = 300;  ///< rows of a response to fit: 
 /// One filter of the chain.
 struct SignalStage {
     signal::Filter filter;
-    bool enabled = true;  ///< if not, the input passes through
-    bool beside = false;  ///< works on the lab's input, beside those above; the first always does
-    int colour = 0;       ///< of its curves; it keeps it wherever it moves
+    bool enabled = true;  ///< otherwise the input passes through
+    bool beside = false;  ///< starts a new lane on the lab's input; always true for the first
+    int colour = 0;       ///< colour of its curves, kept wherever it moves
     signal::FilterState state{};
     bool operator==(const SignalStage&) const = default;
 };
@@ -97,11 +97,11 @@ struct Recording {
 /// A fit in progress, computed in slices, one per tick (analysis.hpp): one kind after the other, in the order
 /// of signal::kinds(). SignalPart::fits has the completed ones.
 struct Fitting {
-    std::vector<signal::Filter> from;  ///< the chain at the start: further starting points of the searches
+    std::vector<signal::Filter> from;  ///< the chain at the start, as further starting points
     std::size_t shares = 0;            ///< ticks spent on the present kind
     bool operator==(const Fitting&) const = default;
 };
-inline constexpr double max_residual = 1e9;  ///< in files
+inline constexpr double max_residual = 1e9;  ///< limit in files
 
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;
@@ -126,16 +126,16 @@ struct SignalPart final : Part {
     bool operator==(const SignalPart& other) const;
 };
 
-/// The stages from a filter that works on the input up to the next such: each works on the output of the one
-/// before it.
+/// The stages from a filter on the lab's input to the next such filter: each works on the output of the one
+/// before.
 struct Lane {
     std::size_t first = 0, end = 0;
 };
 Lane lane_of(const SignalPart& part, std::size_t stage);
-/// The lane of the selected filter, or of the first; if all in it are off, the first lane that has one on.
-/// The output is this one's, and what is exported and fitted.
+/// The lane of the selected filter, or the first lane; if all its filters are off, the first lane with one
+/// on. Its output is shown, exported and fitted.
 Lane shown_lane(const SignalPart& part);
-/// Its last stage that is on: the one whose output is shown.
+/// Its last stage that is on, whose output is shown.
 std::optional<std::size_t> shown_stage(const SignalPart& part);
 /// The lowest colour that no stage has.
 int unused_colour(const SignalPart& part);
@@ -149,7 +149,7 @@ inline std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
 std::vector<std::vector<double>> outputs_for(const SignalPart& part, const InputRows& rows);
 /// The last input; before the first tick, the next one.
 double input_of(const SignalPart& part);
-/// The last output of the first stages of a lane; the last input if none of them has run yet.
+/// The last output of the lane; the last input if none of its stages has run yet.
 double output_of(const SignalPart& part, Lane lane);
 inline double output_of(const SignalPart& part) {
     return output_of(part, shown_lane(part));
@@ -162,13 +162,13 @@ inline const SignalPart& signal_part(const Workspace& workspace) {
     return workspace.document.get<SignalPart>(signal_lab);
 }
 
-// Recording a response by hand, to which filters are then fitted.
+// Records a response by hand, to which filters are then fitted.
 
 /// The input of the response: the rows that the lab plays from its start, one per tick, or the last input of
 /// the hand.
 InputRows rows_to_answer(const SignalPart& part);
 
-/// The last input of the hand, from its first movement on; null if it did not move.
+/// The last input of the hand from its first movement on; null if it did not move.
 std::shared_ptr<const InputRows> gesture_of(const SignalPart& part);
 
 /// Restarts the input, with the filters' states reset. The hand's gesture becomes a recorded input. Throws

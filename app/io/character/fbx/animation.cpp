@@ -13,7 +13,7 @@ glm::dquat part_of(const glm::dquat& rotation, double part) {
     return rig::blend({1.0, 0.0, 0.0, 0.0}, rotation, std::clamp(part, 0.0, 1.0));
 }
 
-/// Stretches the stack to the keys if the file does not say where it begins and ends.
+/// Sets the stack's range from its keys if the file does not state it.
 void fit_to_keys(Stack& stack) {
     if (stack.end > stack.begin) return;
     double first = 1e300, last = -1e300;

@@ -1,4 +1,4 @@
-// The animation of an FBX file: stacks (version 6: takes), which are layers of curves for the nodes'
+// The animation of an FBX file: stacks (version 6: takes) of layers, which hold curves for the nodes'
 // properties.
 #pragma once
 
@@ -25,7 +25,7 @@ struct CurveKey {
     std::int64_t ticks = 0;
     double value = 0.0;
     Shape shape = Shape::Linear;                         ///< from this key to the next
-    double leaving = 0.0, arriving = 0.0;                ///< slopes at this key and at the next; per second
+    double leaving = 0.0, arriving = 0.0;                ///< slopes per second: at this key and at the next
     double leaving_weight = 0.0, arriving_weight = 0.0;  ///< tangent lengths in parts of the interval
     double time() const { return static_cast<double>(ticks) / ticks_per_second; }
 };

@@ -48,7 +48,7 @@ class BodyChooser {
     static bool is_view(const Node& node) {
         return node.subtype == "Camera" || node.subtype == "CameraSwitcher" || node.subtype == "Light";
     }
-    /// Nodes that clusters are linked to; without any: limbs, and nodes that are animated.
+    /// Nodes linked to clusters; if there are none, limbs and animated nodes.
     void find_bones() {
         is_bone_.assign(body_.nodes.size(), false);
         std::vector<std::int32_t> node_of(objects_.size(), -1);
@@ -81,8 +81,8 @@ class BodyChooser {
             if (wanted_[*i] && parent_of(*i) >= 0) wanted_[static_cast<std::size_t>(parent_of(*i))] = true;
         }
     }
-    /// A rotating sky dome is no skeleton: drops top-level trees with less than a tenth of the nodes of the
-    /// largest.
+    /// A rotating sky dome is not a skeleton: drops top-level trees with less than a tenth of the nodes of
+    /// the largest.
     void leave_out_small_trees() {
         std::vector<std::size_t> tree(body_.nodes.size()), counts(body_.nodes.size());
         for (const std::size_t i : order_) {
@@ -100,7 +100,7 @@ class BodyChooser {
                 wanted_[i] = true;
     }
 
-    /// Finds nodes whose scale is ever uneven or nearly 0, and that have children which do not inherit it.
+    /// Finds nodes whose scale is ever uneven or nearly 0, and whose children do not inherit it.
     void find_split() {
         body_.is_split.assign(body_.nodes.size(), false);
         for (const std::size_t i : order_)
@@ -136,7 +136,7 @@ class BodyChooser {
     void collect() {
         body_.bone_of.assign(body_.nodes.size(), -1);
         std::vector<std::int32_t> first(body_.nodes.size(), -1);  // the first of a split node's two bones
-        // Keep the file's order, apart from parents coming first, so that siblings stay in order.
+        // Keep the file's order, except that parents come first, so that siblings stay in order.
         for (const std::size_t i : order_) {
             if (!wanted_[i]) continue;
             Bone bone{.node = i};

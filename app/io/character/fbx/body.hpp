@@ -1,10 +1,11 @@
 // The nodes of an FBX file that form the skeleton, and their transforms in it.
 //
 // The skeleton: the nodes that skins are bound to (without a skin: limbs and animated nodes), their
-// ancestors, and what hangs on them. Cameras, lights, their targets and nodes with meshes only are omitted.
+// ancestors, and their descendants. Cameras, lights, their targets and nodes that only hold meshes are
+// omitted.
 //
 // A skeleton's nodes inherit all of their parent's scale. A node with another InheritType has its scale
-// divided by the parent's. Where that would need shear, because the parent's scale is not uniform, the parent
+// divided by the parent's. If that would need shear, because the parent's scale is not uniform, the parent
 // becomes two nodes: itself without its scale, for such children, and "Hips scale" below it, for its skin and
 // all other children.
 #pragma once
@@ -29,8 +30,8 @@ struct Body {
     /// The bone's transform below its parent; `local` gives the local transform of a node of the file.
     template <class Local>
     rig::Transform transform(std::size_t bone, const Local& local) const;
-    /// The nodes whose scales make up the scale of `node`: itself, and its ancestors as long as they are
-    /// inherited separately.
+    /// The nodes whose scales make up the scale of `node`: itself, and its ancestors up to where scale is no
+    /// longer inherited separately.
     std::vector<std::size_t> scale_chain(std::size_t node) const;
 
   private:
@@ -40,7 +41,7 @@ struct Body {
     glm::dvec3 whole_scale(std::size_t node, const Local& local) const;
 };
 
-/// Whether `node` takes only a part of its parent's scale.
+/// True if `node` inherits only part of its parent's scale.
 bool is_apart(const Node& node);
 
 /// Throws std::runtime_error if there is no skeleton.

@@ -13,18 +13,18 @@ namespace {
 using humanoid::Interpolation;
 using humanoid::Track;
 
-/// Two keys this close together represent a jump: two different times in files that store them as floats.
+/// Two keys this close together are a jump: files that store times as floats need two different ones.
 double jump_seconds(double time) {
     return std::max(1e-7, std::abs(time) / 4194304.0);
 }
-/// Where tracks are compared with curves between two keys; avoids simple fractions of whole turns.
+/// Where a track is compared with its curves between two keys; avoids simple fractions of whole turns.
 constexpr std::array<double, 5> compared{0.1273, 0.3119, 0.5041, 0.6971, 0.8667};
 constexpr double max_angle = 0.02 / 57.29577951308232;
 
 glm::dvec3 toward(const glm::dvec3& value, const glm::dvec3&) {
     return value;
 }
-/// The one of a rotation's two quaternions that is closer to `other`.
+/// The quaternion for this rotation, `value` or -`value`, that is closer to `other`.
 glm::dquat toward(const glm::dquat& value, const glm::dquat& other) {
     return glm::dot(value, other) < 0.0 ? -value : value;
 }

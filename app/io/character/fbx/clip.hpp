@@ -1,8 +1,8 @@
 // The clips of an FBX file, from its curves.
 //
-// A track has the keys of its curves, as in the file. It is linear if all its curves are, a step track if
-// they all step, and cubic otherwise, with the curves' own slopes; where even a cubic is off by more than the
-// tolerance (a rotation by Euler angles far apart), keys are added in between.
+// A track keeps the keys of its curves. It is linear if all its curves are, a step track if they all step,
+// and cubic otherwise, with the curves' own slopes; if even a cubic is off by more than the tolerance (a
+// rotation by Euler angles far apart), keys are added in between.
 #pragma once
 
 #include <tendril/humanoid/clip.hpp>
@@ -14,7 +14,7 @@ namespace tendril::app::fbx {
 /// The maximum deviation of a track from its curves: `length` in the file's unit, per node.
 struct Tolerance {
     double length = 1e-3;
-    std::vector<double> levers{};  ///< per bone, the distance up to which its rotation moves nodes
+    std::vector<double> levers{};  ///< per bone, the distance at which its rotation moves nodes
 };
 
 class ClipWriter {

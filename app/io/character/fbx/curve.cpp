@@ -45,10 +45,10 @@ Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
     return {between(previous, i), between(i, next), between(previous, next), previous == i || next == i};
 }
 
-// Slopes that the file leaves to its readers, named as in Autodesk's documentation of FbxAnimCurveDef. It has
-// no formulas; ufbx (github.com/ufbx/ufbx) found these by comparison with MotionBuilder.
+// Slopes that the file leaves to its readers, named as in Autodesk's documentation of FbxAnimCurveDef, which
+// has no formulas; ufbx (github.com/ufbx/ufbx) found these by comparison with MotionBuilder.
 
-/// A bias in percent moves the slope from the mean of both secants to one of them; the excess over 500
+/// A bias in percent moves the slope from the mean of both secants towards one of them; the excess over 500
 /// steepens it without bound. Only time-dependent keys have a bias.
 double biased(double slope, const Secants& at, double bias) {
     const double part = std::abs(bias) / 100.0, toward = bias > 0.0 ? at.after : at.before;
@@ -56,8 +56,8 @@ double biased(double slope, const Secants& at, double bias) {
     const double excess = std::max(part - 5.0, 0.0), sign = std::abs(way) > 1e-5 ? way : bias;
     return slope + way * part + std::copysign(40.0 * excess * excess, sign);
 }
-/// The slope of an automatic key. A clamped one is level where a neighbour has its value; a progressively
-/// clamped one is level at the ends, and its tangents' control points stay within the neighbours' values.
+/// The slope of an automatic key. A clamped key is level if a neighbour has the same value; a progressively
+/// clamped key is level at the ends, and its tangents' control points stay within the neighbours' values.
 double automatic(const Secants& at, std::int64_t flags, double bias, double left_weight,
                  double right_weight) {
     const bool is_progressive = (flags & clamp_progressive) != 0;
@@ -102,7 +102,7 @@ void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangen
     }
 }
 
-/// Keys in order of time. Of equal times the last key wins; keys that go back in time are dropped.
+/// Keys in order of time. Among equal times the last key wins; keys that go back in time are dropped.
 class KeyList {
   public:
     void add(const CurveKey& key, const Tangents& tangents) {
@@ -186,7 +186,7 @@ class OldKeys {
   public:
     explicit OldKeys(const Record& record) : record_(record) {}
 
-    /// Reads no keys if one of them is not understood, since the start of the next one is then unknown.
+    /// Reads no keys if one of them is not understood, since the next one's start is then unknown.
     Curve read() {
         while (at_ < record_.properties.size() && !is_lost_) read_key();
         if (is_lost_) return {.is_odd = true};
@@ -306,7 +306,7 @@ Curve read_curve(const Record& record) {
         const Record* type = found ? found->child("Type") : nullptr;
         if (type && !type->text(0).empty() && type->text(0) != "C") keys.set_odd();
     }
-    // Each set of attributes applies to a number of keys; the last one to all that are left.
+    // Each set of attributes applies to a number of keys; the last one to the rest.
     std::size_t set = 0;
     std::int64_t left = counts.empty() ? 0 : counts[0];
     for (std::size_t i = 0; i < times.size(); ++i, --left) {

@@ -14,7 +14,7 @@ namespace tendril::app {
 namespace fbx {
 namespace {
 
-/// Limit for the keys of all clips: nodes can share curves, so this bounds memory by the file's size.
+/// Limit for the keys of all clips. Nodes can share curves, so the limit depends on the file's size.
 constexpr std::size_t max_clip_keys = 20'000'000, free_keys = 20'000, keys_per_byte = 4;
 
 class CharacterReader {

@@ -1,5 +1,5 @@
-// Characters in FBX files, binary or text, versions 6.0 to 7.7. Contents that are not supported are left out
-// and listed in the character's notes.
+// Characters in FBX files, binary or text, versions 6.0 to 7.7. Unsupported contents are left out and listed
+// in the character's notes.
 //
 //     record.hpp     the file as records, and as objects with properties and connections
 //     node.hpp       models as nodes, and their transforms

@@ -26,7 +26,7 @@ bool is_mesh(const Objects& objects, std::size_t object) {
     });
 }
 
-/// Whether a minimum or maximum is switched on for any axis of translation, rotation or scale.
+/// True if a minimum or maximum is switched on for any axis of translation, rotation or scale.
 bool has_limits(const Objects& objects, std::size_t object) {
     for (const std::string property : {"Translation", "Rotation", "Scaling"}) {
         if (objects.integer(object, property + "Active", 0) == 0) continue;

@@ -1,8 +1,8 @@
 // The models of an FBX file as nodes, and the transforms that their properties make.
 //
 // A node's local matrix is T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1 (Autodesk, "FBX SDK: Computing
-// transformation matrices"): always a translation, a rotation and a scale. How much of its parent's scale a
-// child inherits depends on its InheritType, so transforms are composed in two parts: `unscaled`, all but the
+// transformation matrices"): always a translation, a rotation and a scale. A child's InheritType decides how
+// much of its parent's scale it inherits, so transforms are composed in two parts: `unscaled`, all but the
 // node's own scale, and `scale`.
 #pragma once
 
@@ -43,7 +43,7 @@ struct Node {
     glm::dvec3 rotation_offset{0.0}, rotation_pivot{0.0}, scaling_offset{0.0}, scaling_pivot{0.0};
     humanoid::Placement geometry{};  ///< the transform of its mesh alone
 
-    /// Whether the translation depends on rotation and scale.
+    /// True if the translation depends on rotation and scale.
     bool has_pivots() const;
     Values rest() const;
 };
@@ -63,7 +63,7 @@ rig::Transform local_of(const Node& node, const Values& values);
 struct Place {
     glm::dmat3 unscaled{1.0};
     glm::dvec3 scale{1.0};
-    glm::dvec3 inherited{1.0};  ///< the part of `scale` that is not the node's own
+    glm::dvec3 inherited{1.0};  ///< the part of `scale` that comes from ancestors
     glm::dvec3 position{0.0};
     humanoid::Placement placement() const;
 };

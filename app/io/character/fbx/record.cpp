@@ -211,7 +211,7 @@ class BinaryRecords final : public RecordReader {
         }
         if (at_ != end) fail("properties that do not end where they say");
     }
-    /// Skips to the end of the record: the length of a property of unknown kind is not known.
+    /// Skips to the end of the record: the length of an unknown kind of property is not known.
     void skip_unknown(std::string_view name, std::size_t end) {
         const char kind[]{bytes_[at_], '\0'};
         if (file_.note.empty())
@@ -287,7 +287,7 @@ class TextRecords final : public RecordReader {
     void skip_blanks() {
         while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
     }
-    /// Skips line ends and comments, too.
+    /// Also skips line ends and comments.
     void skip_lines() {
         for (; at_ < text_.size(); ++at_) {
             if (text_[at_] == ';') at_ = std::min(text_.find('\n', at_), text_.size());
@@ -313,7 +313,7 @@ class TextRecords final : public RecordReader {
         ++at_;
         return name;
     }
-    /// Whether no value follows: `Name:`, a brace, or the end.
+    /// True if no value follows: at `Name:`, a brace, or the end.
     bool at_record() {
         const std::size_t begin = at_;
         const bool has_word = !word().empty();

@@ -1,4 +1,4 @@
-// An FBX file, binary or text, versions 6.0 to 7.7, as its records, and as the objects that they describe: a
+// An FBX file, binary or text, versions 6.0 to 7.7, as its records, and as the objects that they describe. A
 // record has a name, properties and records of its own (Blender Foundation, "FBX binary file format
 // specification", 2013).
 //
@@ -33,13 +33,13 @@ struct Record {
 
     /// The first child of that name; null: none.
     const Record* child(std::string_view wanted) const;
-    /// A property as a number, or `otherwise` if it is none or missing.
+    /// A property as a number, or `otherwise` if it is missing or not a number.
     double number(std::size_t index, double otherwise = 0.0) const;
     std::int64_t integer(std::size_t index, std::int64_t otherwise = 0) const;
-    /// A string, a character or a text file's bare word; "" for any other kind or if missing.
+    /// A string, a character or a text file's bare word; "" if missing or of another kind.
     std::string_view text(std::size_t index) const;
-    /// All numbers of the record: of its array, or else of its properties. Throws std::runtime_error for an
-    /// array that cannot be unpacked.
+    /// All numbers of the record: from its array or, if it has none, its properties. Throws
+    /// std::runtime_error for an array that cannot be unpacked.
     std::vector<double> numbers() const;
     std::vector<std::int64_t> integers() const;
     /// The numbers as 32-bit floats, which text files may write as integers with the same bits.
@@ -52,14 +52,14 @@ struct Record {
 struct File {
     Record root{};
     int version = 0;     ///< 7400 for 7.4
-    std::string note{};  ///< the omissions; "": none
+    std::string note{};  ///< what was omitted; "": nothing
 };
 
 /// The records keep views of `bytes`. Throws std::runtime_error with the reason and the byte or line.
 /// O(bytes).
 File read_records(std::string_view bytes);
 
-// For read_records().
+// Helpers of read_records().
 
 /// Bytes of one number of that letter in a binary file, or of one array element; 0: not a number.
 std::size_t number_bytes(char kind);
@@ -97,8 +97,8 @@ class RecordReader {
 File read_binary(std::string_view bytes);
 File read_text(std::string_view text);
 
-// The objects of an FBX file and how they are connected: models, curves, deformers. Version 6 names them,
-// version 7 numbers them; here both are indices.
+// The objects of an FBX file and their connections: models, curves, deformers. Version 6 refers to them by
+// name, version 7 by number; here both become indices.
 
 struct Object {
     const Record* record = nullptr;

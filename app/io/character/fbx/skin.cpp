@@ -10,7 +10,7 @@ namespace {
 
 using humanoid::Placement;
 
-/// Sum over all lists of weights and shapes: one can belong to many meshes.
+/// Limit for all lists of weights and shapes together: one can belong to many meshes.
 constexpr std::size_t max_deformed = 100'000'000;
 
 Placement placement_in(const std::vector<double>& m) {

@@ -29,7 +29,7 @@ class LayerElement {
         }
     }
 
-    /// The first number of a corner's row; null: it has none.
+    /// The first number of a corner's row; null if it has none.
     const double* at(std::size_t corner, std::size_t point, std::size_t polygon) const {
         std::size_t row = mapping_ == "ByPolygonVertex"                       ? corner
                           : mapping_ == "ByVertice" || mapping_ == "ByVertex" ? point
@@ -155,7 +155,7 @@ std::string_view file_name(std::string_view path) {
     return slash == path.npos ? path : path.substr(slash + 1);
 }
 
-/// Whether a texture on this property of a material is its colour.
+/// True if a texture on this property of a material is its colour.
 bool is_colour(std::string_view property) {
     for (const char* part : {"Diffuse", "diffuse", "baseColor", "base_color", "BaseColor"})
         if (property.find(part) != property.npos && property.find("Factor") == property.npos) return true;

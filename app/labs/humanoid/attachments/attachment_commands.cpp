@@ -93,7 +93,7 @@ std::span<const FieldText> field_texts<AttachmentShape>() {
 
 namespace {
 
-/// A mapped bone of the body by its name, or any node.
+/// A mapped bone of the body, or any node, by name.
 std::size_t holder_named(const HumanoidPart& part, const std::string& name) {
     const auto bone = humanoid::bone_named(name);
     if (bone)

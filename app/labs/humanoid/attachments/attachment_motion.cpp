@@ -18,7 +18,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double longest_substep = 1.0 / 240.0;
-/// Per tick, moving farther than this fraction of the character's height, or turning by more, is a jump. For
+/// Moving farther per tick than this fraction of the character's height, or turning further, is a jump. For
 /// an adult that is 27 m/s.
 constexpr double longest_way = 0.25, largest_turn = glm::radians(100.0);
 constexpr double resting_speed = 5e-3;  ///< m/s
@@ -47,8 +47,8 @@ std::optional<double> joined_part(humanoid::Bone bone) {
     return std::ranges::find(limbs, bone) != limbs.end() ? std::optional(0.0) : std::nullopt;
 }
 
-/// Limbs, and what hands hold, are soft: where they press on the trunk they get thinner, to leave room for
-/// cloth in between.
+/// Limbs, and things that hands hold, are soft: where they press on the trunk they get thinner, to leave room
+/// for cloth in between.
 std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& worn) {
     double room = 0.0;
     for (const rope::Body& each : worn.bodies) room = std::max(room, 2.0 * static_cast<double>(each.radius));
@@ -84,7 +84,7 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& wo
     return all;
 }
 
-/// How many of the first colliders the world has, in this order. Positions may differ.
+/// Number of colliders at the start of the world's list that match, in this order. Positions may differ.
 std::size_t count_shared(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
     const std::vector<rope::Collider>& there = world.state().colliders;
     std::size_t i = 0;
@@ -144,7 +144,7 @@ NodeFrame frame_of(const Attachment& attachment, const Wearer& wearer) {
     return frame;
 }
 
-/// Whether a node or a capsule moved farther than is plausible in that time.
+/// True if a node or a capsule moved farther than is plausible in that time.
 bool has_jumped(const Attachments& attachments, const Wearer& wearer,
                 const std::vector<NamedShape>& colliders, double seconds) {
     const double ticks = std::max(1.0, seconds / tick_seconds);
@@ -156,14 +156,14 @@ bool has_jumped(const Attachments& attachments, const Wearer& wearer,
     if (!has(*attachments.world, colliders)) return false;
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const rope::Shape& before = attachments.world->state().colliders[i].shape;
-        // Hands are fast: capsules may move twice as far as the nodes that attachments hang on.
+        // Hands are fast: capsules may move twice as far as nodes that carry attachments.
         if (glm::distance(dvec3(rope::centre(before)), dvec3(rope::centre(colliders[i].shape))) > 2.0 * far)
             return true;
     }
     return false;
 }
 
-/// Whether everything already is where the wearer has it.
+/// True if the world already matches the wearer's pose.
 bool in_place(const Attachments& attachments, const Wearer& wearer,
               const std::vector<NamedShape>& colliders) {
     constexpr double metres = 1e-4, radians = 1e-4;
@@ -206,7 +206,7 @@ void carry_bodies(NamedWorld& world, const Attachments& attachments, const std::
     world.put(std::move(state));
 }
 
-/// Moves the body to its new pose and pushes aside whatever it meets; everything else is frozen.
+/// Moves the body to its new pose and pushes aside everything in its way; the rest is frozen.
 void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rope::Workspace& workspace) {
     constexpr int substeps = 24;
     const rope::State before = world.state();
@@ -228,8 +228,8 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     place_colliders(world, colliders);
 }
 
-/// Resets attachments that are caught in the body to their initial shape: those that are badly stretched, and
-/// those that stay stretched though they hardly move.
+/// Resets attachments that are caught in the body to their initial shape: those badly stretched, and those
+/// that stay stretched while hardly moving.
 void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& wearer) {
     constexpr double largest_error = 0.5, largest_at_rest = 0.05;
     for (const Attachment& each : attachments.list) {
@@ -281,7 +281,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
     const std::vector<NamedShape> colliders = colliders_of(wearer, attachments.world->state());
     if (has_jumped(attachments, wearer, colliders, seconds)) carry(attachments, wearer, workspace);
     auto world = std::make_shared<NamedWorld>(*attachments.world);
-    // Whole substeps, so that everything is at the character's pose when the tick ends.
+    // Whole substeps, so that everything has reached the character's pose when the tick ends.
     const double substeps = std::ceil(seconds / longest_substep - 1e-6);
     rope::Settings settings = world->settings();
     settings.substep = std::clamp(seconds / substeps, rope::min_substep, longest_substep);

@@ -19,7 +19,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
 /// it out of the body. No time passes. Does nothing if no node moved.
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace);
 
-/// Whether everything moves negligibly slowly, and no gusts go on.
+/// True if everything moves negligibly slowly, and no gusts blow.
 bool at_rest(const Attachments& attachments);
 
 // Attachments of the lab's character, for commands and ticks.
@@ -27,18 +27,18 @@ bool at_rest(const Attachments& attachments);
 /// Valid while `shown` exists and the part does not change.
 Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown);
 
-/// Wraps a command so that springs and attachments are carried along with whatever it does to the pose. Drags
-/// while the simulation runs are left to the next tick, which swings them.
+/// Wraps a command so that springs and attachments move along with its change to the pose. Drags while the
+/// simulation runs are left to the next tick, which swings them.
 Command carrying(Command command);
 
 /// Call after the character was scaled by `scale`.
 void remake_attachments(Workspace& workspace, double scale);
 
-/// What a character wears and holds, as nodes for an export: each strand, and each column of a cloth, is a
-/// chain of nodes through its particles; the held object is one node.
+/// The things that a character wears and holds, as nodes for an export: each strand, and each column of a
+/// cloth, is a chain of nodes through its particles; the held object is one node.
 class WornMotion {
   public:
-    /// Puts everything on anew at the pose that the clip starts with, and lets it hang there.
+    /// Recreates everything at the pose that the clip starts with, and lets it settle.
     WornMotion(const HumanoidPart& part, Solvers& solvers, const ShownPose& start, rope::Workspace& ropes);
     const Worn& worn() const { return worn_; }
     void advance(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown, double seconds);

@@ -30,7 +30,7 @@ Made make_rope(const AttachmentShape& shape, const Wearer& wearer, const glm::dv
                              .segments = shape.segments,
                              .radius = static_cast<float>(radius),
                              .density = rope_density});
-    // Pins the particles inside the body and one more, so that a tail keeps its direction where it emerges.
+    // Pins the particles inside the body and one more, so that a tail keeps its direction as it leaves it.
     made.pinned = {0};
     const auto last = static_cast<std::size_t>(shape.segments);
     for (std::size_t i = 1; i < last; ++i) {
@@ -78,7 +78,7 @@ Made make_cloth(const AttachmentShape& shape, const Wearer& wearer, const glm::d
         state.position[i] = row[i % row.size()] + wider + (step * down) * shape.direction;
     }
     for (rope::Pin& pin : state.pins) pin.goal = state.position[pin.particle];
-    // Tailored to the body: the initial shape is the rest shape.
+    // Fitted to the body: the initial shape is the rest shape.
     for (rope::Link& link : state.links)
         link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
     made.world.put(std::move(state));
@@ -114,7 +114,7 @@ void append(NamedWorld& world, const std::string& name, const rope::State& from,
         link.b += static_cast<std::uint32_t>(first);
         all.links.push_back(link);
     }
-    // New handles are assigned: only the world itself stores any.
+    // New handles are assigned: only the world stores any.
     for (rope::Body& each : all.bodies) each.id = {};
     for (rope::Collider& each : all.colliders) each.id = {};
     world = NamedWorld(std::move(all), bodies, colliders);
@@ -229,7 +229,7 @@ double distance_to_body(const Wearer& wearer, const dvec3& point) {
     return nearest;
 }
 
-/// How far to move along the unit vector `way` until a ball of that radius clears the body.
+/// Distance along the unit vector `way` after which a ball of that radius clears the body.
 double way_off(const Wearer& wearer, const dvec3& from, const dvec3& way, double radius) {
     constexpr int max_steps = 200;
     double far = 0.0;

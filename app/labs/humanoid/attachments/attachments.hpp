@@ -65,7 +65,7 @@ struct Attachment {
     AttachmentKind kind = AttachmentKind::Rope;
     AttachmentShape shape{};
     std::vector<AttachmentPin> pins{};
-    NodeFrame frame{};  ///< where the simulation has brought it
+    NodeFrame frame{};  ///< the node's, at the last simulated moment
     bool operator==(const Attachment&) const = default;
 };
 
@@ -80,19 +80,19 @@ struct Attachments {
     bool operator==(const Attachments& other) const;
 };
 
-/// What attachments need to know about the character.
+/// The character's data that attachments need.
 struct Wearer {
     const LoadedCharacter& loaded;
     const humanoid::BoneMap& map;
     std::span<const humanoid::BodyCapsule> capsules;  ///< of `map`
-    std::span<const humanoid::Placement> placed;      ///< as displayed
+    std::span<const humanoid::Placement> placed;      ///< the displayed pose
     const GroundSetting& ground;
     std::vector<humanoid::PlacedCapsule> held{};  ///< the object in its hands
 
     NodeFrame frame(std::size_t node) const;
 };
 
-/// Scales the lengths, clamped to the permitted range.
+/// Scales the lengths, clamped to their range.
 void scale_lengths(AttachmentShape& shape, double by);
 /// A shape that suits the node: a tail, a ponytail, a cape; elsewhere it hangs straight down.
 AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node);
@@ -104,12 +104,12 @@ void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment w
 void remove_attachment(Attachments& attachments, const std::string& name);
 /// The initial positions of its particles, relative to the node at rest.
 std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer& wearer);
-/// An edge longer than its rest length by more than this part is torn. Walking and punching at double speed
-/// stretch none by over 8 %.
+/// An edge is torn if it is longer than its rest length by more than this fraction. Walking and punching at
+/// double speed stretch none by over 8 %.
 inline constexpr double torn_strain = 0.25;
 /// How many edges of an attachment are torn.
 std::size_t torn_edges(const Attachments& attachments, const Attachment& attachment);
-/// All attachments, made anew at `scale` times their size.
+/// All attachments, recreated at `scale` times their size.
 Attachments remade(const Attachments& attachments, const Wearer& wearer, double scale);
 
 }  // namespace tendril::app
@@ -122,7 +122,7 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentPin>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Attachment>() noexcept;
-/// Except for their world.
+/// Excludes their world.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Attachments>() noexcept;
 template <>
@@ -136,7 +136,7 @@ inline constexpr double flare = 0.7;  ///< a cloth widens by this fraction of it
 
 std::size_t particles_of(AttachmentKind kind, const AttachmentShape& shape);
 
-/// Whether a ball at that point touches or intersects the body at rest.
+/// True if a ball at that point touches or intersects the body at rest.
 bool is_in_body(const Wearer& wearer, const glm::dvec3& point, double radius);
 
 /// The first row of a cloth on the character at rest, centred at `middle` and ordered so that the front of

@@ -63,7 +63,7 @@ WornMotion::WornMotion(const HumanoidPart& part, Solvers& solvers, const ShownPo
     UniqueNames names;
     for (const humanoid::Node& each : part.skeleton().nodes()) names.add(each.name, 0);
     for (humanoid::Node& each : worn_.nodes) each.name = names.add(std::move(each.name), 0);
-    constexpr double hung_out = 2.0;  // seconds, until hair and cloth hang
+    constexpr double hung_out = 2.0;  // seconds, until hair and cloth have settled
     for (int i = 0; i < static_cast<int>(hung_out / tick_seconds); ++i)
         advance(part, solvers, start, tick_seconds);
 }
@@ -97,7 +97,7 @@ void WornMotion::add(const Attachment& attachment, const HumanoidPart& part, con
                         0.5 * attachment.shape.thickness);
         }
     }
-    // Corners of a cloth are column by column, as its nodes.
+    // A cloth's corners are column by column, like its nodes.
     const auto n = static_cast<std::uint32_t>(count);
     for (std::uint32_t k = 0; cloth && k + n < mesh.corners.size(); ++k)
         if ((k + 1) % n != 0)
@@ -109,7 +109,7 @@ void WornMotion::add_held(const HumanoidPart& part, const ShownPose& start) {
     if (!part.ik.hold || !start.hold) return;
     const HoldSetting& hold = *part.ik.hold;
     const std::string name = held_kinds.title(hold.kind);
-    // In one hand it goes with the hand; in both it turns and slides in each, and goes with the root.
+    // Held in one hand, it moves with that hand. In two hands it turns and slides, so it moves with the root.
     std::size_t above = *part.node_of(hold.hands == HoldingHands::Left    ? humanoid::Bone::LeftHand
                                       : hold.hands == HoldingHands::Right ? humanoid::Bone::RightHand
                                                                           : humanoid::Bone::Hips);
@@ -141,7 +141,7 @@ void WornMotion::pose(const ShownPose& shown, std::span<rig::Transform> nodes) c
             const glm::dmat3 into = glm::inverse(above.axes);
             rig::Transform& local = nodes[chain.node + i];
             local = {.translation = into * (at - above.position)};
-            // Turned so that the next node lies in the direction in which it rests.
+            // Turned so that the next node is in its rest direction.
             if (i + 1 < chain.count)
                 local.rotation =
                     rig::from_two_vectors(worn_.nodes[chain.node + i + 1].rest.translation,

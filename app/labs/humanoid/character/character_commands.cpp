@@ -95,7 +95,7 @@ void keep_correction(Workspace& workspace) {
     if (!workspace.keeps || workspace.config.empty()) return;
     const HumanoidPart& part = humanoid_part(workspace);
     try {
-        // A map as matched need not be kept.
+        // A map that equals the automatic match need not be kept.
         const SavedMap matched = saved_map(part.loaded->matched, part.skeleton());
         if (!bones_that_differ(matched, part).empty()) return keep(workspace);
         humanoid_runtime(workspace).kept_maps.forget();
@@ -176,8 +176,8 @@ void show_all(Workspace& workspace) {
     camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, all.centre, all.radius);
 }
 
-/// What loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if the user
-/// made nothing. `keeps_clip`: the chosen clip goes along, with its fixes and the bones that it was read by.
+/// Work that loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if
+/// there is none. `keeps_clip`: the chosen clip stays, with its fixes and the bone map it was read with.
 std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
     std::vector<std::string> all;
     const auto add = [&](std::size_t count, const char* one, const char* many) {
@@ -195,7 +195,7 @@ std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
     add(part.curves.size(), "curve", "curves");
-    // The built-in figure's attachments and IK may be the opening's.
+    // The built-in figure's attachments and IK may come from the opening.
     if (part.loaded->file.empty()) return comma_list(all);
     add(part.attachments.list.size(), "attachment", "attachments");
     IkSettings rest = part.ik;
@@ -204,11 +204,11 @@ std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
     return comma_list(all);
 }
 
-/// `plays`: on it plays the clip of the character before it.
+/// `plays`: the new character plays the old one's clip.
 void show(Workspace& workspace, SharedCharacter character, bool plays) {
     const HumanoidPart& before = humanoid_part(workspace);
     HumanoidPart part(std::move(character));
-    // A file with one clip is that clip.
+    // If a file has only one clip, play it.
     if (part.loaded->clips().size() == 1) part.playback = {.clip = 0, .playing = true};
     std::string text;
     if (plays) {
@@ -249,17 +249,17 @@ void load(Workspace& workspace, const Arguments& given, bool plays) {
     show(workspace, std::move(character), plays);
 }
 
-/// Whether a file has a motion and nothing to see: a BVH, a VRM animation, or a glTF or FBX without a mesh.
+/// True if a file has a motion but nothing to draw: a BVH, a VRM animation, or a glTF or FBX without a mesh.
 bool is_bare_motion(const std::filesystem::path& file) {
     const std::string ending = lower_case(file.extension().string());
     if (ending == ".bvh" || ending == ".vrma") return true;
-    // Binary files list at the start which kinds of objects they have: their data need not be read.
+    // Binary files list their kinds of objects at the start: no need to read their data.
     constexpr std::uintmax_t enough = 4u << 20;
     try {
         const std::string bytes = character_bytes(file, ending == ".gltf" ? UINTMAX_MAX : enough);
         return bytes.find(ending == ".fbx" ? "Geometry" : "\"meshes\"") == bytes.npos;
     } catch (const std::exception&) {
-        return false;  // opening it says why
+        return false;  // opening it reports why
     }
 }
 
@@ -275,7 +275,7 @@ void map(HumanoidPart& part, const Arguments& given) {
     correct(part, corrections_of(wanted, *part.loaded));
 }
 
-/// Scales what the user has placed on or around the character, so that it keeps its place in another unit.
+/// Scales everything that the user placed on or around the character, to keep its place in the new unit.
 void scale_places(HumanoidPart& part, double factor) {
     const auto scale = [&](glm::dvec3& position) {
         constexpr auto most = static_cast<double>(max_magnitude);
@@ -334,7 +334,7 @@ Command space_command(const char* name, const char* title, std::size_t field, co
             .apply = set_space};
 }
 
-/// Whether the T-pose correction would turn anything: it needs a limb of two bones.
+/// True if the T-pose correction would turn anything: it needs a limb of two bones.
 bool has_limbs(const HumanoidPart& part) {
     for (const Bone upper :
          {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg})
@@ -380,10 +380,10 @@ void finish_loading(Workspace& workspace) {
     } catch (const std::exception& error) {
         throw Refused(work.command + ": " + error.what());
     }
-    // A single undo step, as if the command had done all of it now.
+    // A single undo step, as if the command had done all the work at once.
     const Document before = workspace.document;
     Place from = workspace.place();
-    // The file may have been opened in another lab, which closed then.
+    // The user may have opened the file from another lab, which is now closed.
     if (const auto camera = workspace.cameras.find(work.from);
         work.from != workspace.lab && camera != workspace.cameras.end()) {
         from.lab = work.from;
@@ -467,7 +467,7 @@ void add_character_commands(CommandTable& table) {
         "Shows the rest pose with arms straight out to the sides and legs straight down", set_t_pose));
 }
 
-// Commands on files: bone maps, clips exported with everything that IK does to them, and cures of clips.
+// Commands on files: bone maps, clips exported as IK leaves them, and cures of clips.
 
 namespace {
 
@@ -492,7 +492,7 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return name.empty() ? part.playback.clip.value_or(0) : part.loaded->clip_called(name);
 }
 
-/// Whether the file can hold more than the character's own bones.
+/// True if the file can hold more than the character's own bones.
 bool takes_worn(const std::filesystem::path& path) {
     return lower_case(path.extension().string()) != ".bvh";
 }

@@ -18,7 +18,7 @@ class KeptMaps {
     const SavedMap* offered(const Workspace& workspace);
     /// Null if there is none.
     const SavedMap* kept(const Workspace& workspace);
-    /// Why an existing file was ignored; empty if it was not.
+    /// Why an existing file was ignored; empty if it was used.
     const std::string& refused(const Workspace& workspace);
     /// Reads the folder again next time.
     void forget() { of_ = nullptr; }
@@ -32,7 +32,7 @@ class KeptMaps {
     std::string refused_;
 };
 
-/// The bones that `map` assigns to other nodes than the character does now.
+/// The bones that `map` assigns to other nodes than the character's present map.
 std::vector<humanoid::Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& part);
 
 }  // namespace tendril::app

@@ -21,7 +21,7 @@
 
 namespace tendril::app {
 
-/// Which faults of a clip were fixed: all, those of one kind or node, or those at a frame.
+/// Which faults of a clip were fixed: all, those of one kind or node, or those in one frame.
 struct ClipCure {
     std::string clip;
     std::optional<humanoid::Fault> fault{};  ///< none: all kinds
@@ -49,29 +49,28 @@ struct Reading {
 struct LoadedMotion : OutsideFile {
     std::string clip;                  ///< its name there
     std::vector<std::string> notes{};  ///< RetargetedMotion::notes
-    /// The clip's character, with the fixes made on it; null: as its file is read.
+    /// The clip's character, with its fixes; null: as its file is read.
     SharedCharacter source{};
     Reading source_as{};
     bool operator==(const LoadedMotion&) const = default;
 };
 
-/// A clip that was added or changed. A scene file has `what` and `as`, and its clip is made again from them.
+/// A clip that was added or changed. A scene file stores `what` and `as`; loading repeats the edit.
 struct ClipEdit {
     std::variant<LoadedMotion, ClipCure> what;
-    Reading as{};                                ///< the settings when it was made
-    std::shared_ptr<const humanoid::Clip> clip;  ///< in the metres and axes of `as`
-    std::shared_ptr<const humanoid::Clip>
-        unfixed{};  ///< a motion without the fixes made on it; null: it has none
+    Reading as{};                                     ///< settings at the time
+    std::shared_ptr<const humanoid::Clip> clip;       ///< in the metres and axes of `as`
+    std::shared_ptr<const humanoid::Clip> unfixed{};  ///< a motion before its fixes; null: it has none
 };
 
-/// Without a file it is the stick figure.
+/// The stick figure if there is no file.
 struct LoadedCharacter : OutsideFile {
     Character character;
-    std::vector<ClipEdit> edits{};                    ///< of its clips, in the order in which they were made
+    std::vector<ClipEdit> edits{};                    ///< edits of its clips, in order
     std::shared_ptr<const LoadedCharacter> source{};  ///< as first read from its file; null: this one
-    std::map<std::string, std::shared_ptr<const humanoid::Clip>> unfixed{};  ///< fixed clips as they were
-    humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
-    std::vector<humanoid::Placement> rest;  ///< of all nodes
+    std::map<std::string, std::shared_ptr<const humanoid::Clip>> unfixed{};  ///< originals of fixed clips
+    humanoid::BoneMap matched;              ///< from the file's names, or matched by the library
+    std::vector<humanoid::Placement> rest;  ///< placements of all nodes at rest
     RestBounds bounds{};                    ///< at rest
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
@@ -118,7 +117,7 @@ class Loading {
     Loading(const Loading&) = delete;
     Loading& operator=(const Loading&) = delete;
 
-    /// Cancels what is running.
+    /// Cancels any running work.
     void begin(Work work);
     /// Does not wait for the thread, which stops when it next reports its progress.
     void cancel();
@@ -126,9 +125,9 @@ class Loading {
     /// The running work; only while running().
     const Work& work() const { return job_->work; }
     float part() const { return job_->progress.part(); }
-    /// Whether take() would return without waiting.
+    /// True if take() would return without waiting.
     bool done() const { return running() && job_->done; }
-    /// Waits for the change and returns it. Throws what the work threw. Nothing runs afterwards.
+    /// Waits for the change and returns it. Throws the work's exception. Nothing runs afterwards.
     Change take();
 
   private:
@@ -144,7 +143,7 @@ class Loading {
     std::vector<std::unique_ptr<Job>> cancelled_;
 };
 
-/// Whether to load in the background: for a large file, in a window whose user waits.
+/// Whether to load in the background: a large file, in a window with a user.
 bool loads_beside(const Workspace& workspace, const std::string& file);
 
 }  // namespace tendril::app

@@ -25,9 +25,9 @@ using humanoid::Clip;
 using humanoid::Finding;
 using humanoid::LintReport;
 
-/// Frames times nodes that take a tick or two to judge.
+/// Number of frames times nodes that takes a tick or two to judge.
 constexpr double soon_judged = 60'000.0;
-/// How many times longer judging the result takes, since every frame is solved.
+/// How much longer judging the result takes, since every frame is solved.
 constexpr double result_times = 10.0;
 
 std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
@@ -44,7 +44,7 @@ LintReport lint_of(const HumanoidPart& part, const Clip& clip, const humanoid::G
                 {.rate = rate, .limits = limits ? &*limits : nullptr, .ground = ground});
 }
 
-/// Lints the clip as shown. A cure changes the clip as read, so that only what is wrong there too has one.
+/// Lints the clip as shown. A cure changes the clip as read, so only faults that it has too can be cured.
 LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
     const double rate = humanoid::frame_rate(*part.clip());
     const LintReport before = lint_of(part, *part.clip());
@@ -56,7 +56,7 @@ LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
     return report;
 }
 
-/// Why a finding has no cure, or if it has one, why that was refused.
+/// Why a finding has no cure or, if it has one, why that was refused.
 std::string why_no_fix(const HumanoidPart& part, const Finding& finding, JudgedClip judged) {
     using enum humanoid::Fault;
     if (finding.has_cure) return "its fix would make a new fault";
@@ -97,7 +97,7 @@ Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double
     }
     const humanoid::Skeleton skeleton = wardrobe ? wardrobe->worn.dressed(part.skeleton()) : part.skeleton();
     return baked(skeleton, before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
-        // Steps of a tick, as in playback, also at a lower rate: springs depend on the length of a step.
+        // Steps of a tick, as in playback, even at a lower rate: springs depend on the step's length.
         const int steps = std::max(1, static_cast<int>(std::ceil(dt / tick_seconds - 1e-6)));
         for (int i = 1; i <= steps; ++i) {
             const Playback last = part.playback;
@@ -119,7 +119,7 @@ const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solver
 ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
     Judged judged{part.loaded, part.map, {.clip = part.playback.clip}, part.ik.limits};
     if (part.view.judged != JudgedClip::Result) return judged;
-    // Targets as at the clip's start, whatever moment is shown; rounded, because carrying them there rounds.
+    // The targets at the clip's start, whichever moment is shown; rounded, because moving them there rounds.
     HumanoidPart start = part;
     start.playback.time = 0.0;
     start.playback.rounds = 0;
@@ -167,7 +167,7 @@ const LintReport* ClipLint::judge(const HumanoidPart& part, Solvers& solvers) {
 
 namespace {
 
-/// `left`: all that are left. Those that were to be fixed are named, with the reason.
+/// `left`: all remaining findings. Names those that were to be fixed, with the reason.
 std::string cured_text(const HumanoidPart& part, JudgedClip judged, const std::string& clip, std::size_t done,
                        std::size_t left, const std::vector<Finding>& meant) {
     const std::size_t told = std::min<std::size_t>(meant.size(), 3);
@@ -197,8 +197,8 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     Clip clip = place;
     const std::optional<BodyLimits> limits = limits_for(part);
     const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
-    // Each cure leaves fewer findings, so that this ends. What could not be cured is tried once more after
-    // all others: each try takes as long as several lints of the whole clip.
+    // Each cure leaves fewer findings, so this ends. Findings that could not be cured are tried once more
+    // after all others: each try costs several lints of the whole clip.
     std::vector<Finding> left;
     std::vector<std::string> refused;
     std::size_t before = 0;
@@ -274,7 +274,7 @@ void cure(const HumanoidPanel& panel, const Finding& finding) {
     panel.emit("humanoid.cure", arguments);
 }
 
-/// The fault and its amount; below them its position in the clip, and the button that fixes it.
+/// The fault and its amount; below them its time in the clip, and the button that fixes it.
 void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorPos();

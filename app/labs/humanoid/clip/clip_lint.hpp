@@ -1,4 +1,4 @@
-// The lint report of the chosen clip, as read or as IK leaves it, cached; and cures for its faults.
+// The lint report of the chosen clip, either as read or after IK, cached; and cures for its faults.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ struct Wardrobe {
     rope::Workspace& ropes;
     Worn worn{};
 };
-/// The clip as displayed, played once from its start: an export writes it. With a wardrobe, dresses the
-/// character and animates what it wears.
+/// The clip as displayed, played once from its start, for an export. With a wardrobe, dresses the character
+/// and animates its attachments.
 humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate,
                              Wardrobe* wardrobe = nullptr);
 /// The ground on which foot IK puts the feet; null without foot IK.
 const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
 
 /// Cached until character, bone map, clip or limits change; the report on the result also until IK, curves or
-/// springs do.
+/// springs change.
 class ClipLint {
   public:
-    /// The report on the clip or on the result, as HumanoidView::judged says. Null without a clip, and for
+    /// The report on the clip or on the result, as HumanoidView::judged says. Null without a clip, or for
     /// clips so long that a frame would stall: those need judge().
     const humanoid::LintReport* report(const HumanoidPart& part, Solvers& solvers);
     /// Judges the clip, however long it is.
@@ -50,18 +50,18 @@ class ClipLint {
     std::optional<humanoid::LintReport> report_;
 };
 
-/// Throws std::invalid_argument, with the reasons, if IK makes everything in the report on the result that
-/// matches `cure`: then there is nothing to cure in the clip.
+/// Throws std::invalid_argument, with the reasons, if IK causes everything in the report on the result that
+/// matches `cure`: the clip itself then has nothing to cure.
 void require_cure_in_clip(const HumanoidPart& part, const ClipCure& cure, const humanoid::LintReport& result);
 
 struct CuredClip {
     SharedCharacter loaded;
-    std::string text;  ///< for the user: how many faults are fixed, and which are left and why
+    std::string text;  ///< for the user: how many faults were fixed, which remain, and why
 };
-/// Cures the faults of a clip that match `cure`, until no more can be. Throws std::invalid_argument if none
-/// can.
+/// Cures the clip's faults that match `cure`, until no more can be cured. Throws std::invalid_argument if
+/// none can.
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
-/// Whether judging the chosen clip, as set, is quick enough for a frame to wait.
+/// True if judging the chosen clip takes at most a frame.
 bool judged_soon(const HumanoidPart& part);
 
 }  // namespace tendril::app

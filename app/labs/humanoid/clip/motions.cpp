@@ -27,7 +27,7 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
     return name;
 }
 
-/// How often a motion was taken along to another character, at most. A scene file nests them.
+/// Maximum number of times that a motion was moved to another character. A scene file nests them.
 int times_taken(const LoadedCharacter& character) {
     int most = 0;
     for (const ClipEdit& each : character.edits)
@@ -77,14 +77,14 @@ void play_last_clip(HumanoidPart& part) {
 }
 
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip) {
-    // Each has added a clip behind the character's own.
+    // Each edit has added a clip after the character's own.
     std::size_t at = character.source ? character.source->clips().size() : 0;
     for (const ClipEdit& each : character.edits)
         if (const auto* motion = std::get_if<LoadedMotion>(&each.what); motion && at++ == clip) return motion;
     return nullptr;
 }
 
-// The command and its rows.
+// The command and its rows in the panel.
 
 namespace {
 

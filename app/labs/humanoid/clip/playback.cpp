@@ -200,7 +200,7 @@ bool shows_lint_marks(const Workspace& workspace) {
 
 namespace {
 
-/// Seconds since the start of the first round.
+/// Seconds since the first round started.
 double since_begin(const Playback& playback, double duration, double time) {
     return static_cast<double>(playback.rounds) * duration + time;
 }
@@ -239,7 +239,7 @@ std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
         bars[tick] = {panel.colours.limit, std::max(bars[tick].height, height)};
     };
     for (const humanoid::Finding& each : report->findings) {
-        // A finding that lasts for the whole clip says nothing about any moment of it.
+        // A finding over the whole clip says nothing about any one moment.
         const bool whole = each.first == 0 && each.last + 1 >= report->frames;
         for (std::size_t i = tick_of(each.first); !whole && i <= tick_of(each.last); ++i) mark(i, 0.35f);
         mark(tick_of(each.frame), 1.0f);
@@ -264,7 +264,7 @@ void clip_strip(const HumanoidPanel& panel) {
     }
 }
 
-/// Returns the line of the last ten seconds if the strip shows those.
+/// Returns the line of the last ten seconds if the strip shows it.
 std::optional<StripLine> strip(const HumanoidPanel& panel) {
     if (panel.part.clip() == nullptr) return past_strip(panel.workspace, panel.emit);
     bool& past = panel.runtime.panel.past;
@@ -285,7 +285,7 @@ void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
 
 }  // namespace tendril::app
 
-// Commands on clips: which one, which moment of it, and how it plays.
+// Commands on clips: choosing one, its moment, and how it plays.
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
@@ -362,7 +362,7 @@ void choose(Playback& playback, std::optional<std::size_t> clip) {
     if (!clip) playback.playing = false;
 }
 
-/// Playing again from the end starts over.
+/// Playing from the end restarts.
 void set_playing(HumanoidPart& part, bool on) {
     Playback& playback = part.playback;
     playback.playing = on;
@@ -407,7 +407,7 @@ Command followed(Command command) {
         apply(workspace, given);
         if (workspace.lab != humanoid_lab || !humanoid_part(workspace).view.follow) return;
         glm::vec3 way = hips_at(workspace) - before;
-        // Ignores small changes of height, so that a figure that crouches stays put in the view. Large ones
+        // Ignores small changes of height, so that a crouching figure stays in place in the view. Large ones
         // count: the hips of captured figures rest at the origin.
         if (std::abs(way.y) < 0.3f) way.y = 0.0f;
         workspace.camera.target += way;

@@ -1,4 +1,4 @@
-// The panel's rows and the commands about curves that chains of the character bend along.
+// Panel rows and commands for the curves that chains of the character bend along.
 #include <imgui.h>
 #include <algorithm>
 #include <stdexcept>
@@ -35,7 +35,7 @@ void curve_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PopID();
 }
 
-/// A chooser of the chains that can be bent.
+/// A list of the chains that can be bent.
 void add_curve_row(const HumanoidPanel& panel) {
     const std::string none = "choose a chain";
     if (!begin_list("add curve", &none)) {
@@ -139,7 +139,7 @@ std::size_t node_or_bone(const HumanoidPart& part, const std::string& name) {
     return node_named(part, name);  // throws: there is no such node
 }
 
-/// A new curve through the pose; replaces the one that begins there, if any, but keeps its settings.
+/// A new curve through the pose. Replaces one that begins there, keeping its settings.
 BoneCurve& begin_curve(const IkNow& now, HumanoidPart& part, const BoneChain& chain) {
     if (part.skeleton().children(chain.first).empty())
         throw std::invalid_argument("nothing hangs on " + part.skeleton()[chain.first].name +

@@ -73,7 +73,7 @@ std::size_t bones_between(const humanoid::Skeleton& skeleton, const BoneChain& c
     return bones;
 }
 
-/// A turned node that both chains have; empty if none.
+/// A node that both chains turn; empty if there is none.
 std::optional<std::size_t> shared_node(const humanoid::Skeleton& skeleton, const BoneChain& a,
                                        const BoneChain& b) {
     for (std::size_t at = a.last; at != a.first;) {
@@ -85,7 +85,7 @@ std::optional<std::size_t> shared_node(const humanoid::Skeleton& skeleton, const
 
 // Pick ids: a block for each curve, its control points first, then its strokes.
 constexpr PickId first_block = 2'000'000, block = 10'000;
-/// Where the curve ends at the head, its end is on the head's ball.
+/// The end of a curve at the head is on the head's ball: draw it over that.
 constexpr std::int16_t over_effectors = 6;
 constexpr PickId strokes_from = static_cast<PickId>(max_bone_curve_points);
 
@@ -254,7 +254,7 @@ Json curves_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& s
     return list;
 }
 
-// Curves of the Humanoid lab under the mouse and in the picture.
+// Curves of the Humanoid lab: picking and drawing.
 
 std::vector<glm::vec3> shown_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                                    std::size_t curve) {

@@ -21,7 +21,7 @@ struct ShownPose;
 class Solvers;
 
 inline constexpr std::size_t max_bone_curves = 16, max_bone_curve_points = 64;
-/// Control points that a new curve has.
+/// Control points of a new curve.
 inline constexpr std::size_t new_curve_points = 4;
 
 /// No two curves turn the same node.
@@ -39,22 +39,23 @@ struct BoneChain {
 };
 /// The nodes of a curve; empty if the character does not have them.
 std::optional<BoneChain> chain_of(const HumanoidPart& part, const BoneCurve& curve);
-/// The spine, and every chain of two bones and more beside the body: tails, ears, hair; not fingers.
+/// The spine, and every chain of at least two bones beside the body: tails, ears, hair; not fingers.
 std::vector<BoneChain> bendable_chains(const HumanoidPart& part);
 /// "tail_1 to tail_6"
 std::string title_of(const HumanoidPart& part, const BoneChain& chain);
-/// The end of the chain from `first`: as in bendable_chains(), or else the end of the longest path down.
+/// The end of the chain from `first`: as in bendable_chains() or, failing that, at the end of the longest
+/// path.
 std::size_t end_of_chain(const HumanoidPart& part, std::size_t first);
 
 /// The index of the curve that begins at the node.
 std::optional<std::size_t> curve_from(const HumanoidPart& part, std::size_t first);
 /// The index of the curve whose chain has the node.
 std::optional<std::size_t> curve_through(const HumanoidPart& part, std::size_t node);
-/// Why there can be no new curve along the chain, whose last node must be below its first: another curve
-/// turns one of its nodes. Empty if there can be one, provided that the chain has some length.
+/// Why the chain cannot get a new curve: another curve turns one of its nodes. Empty if it can. The last node
+/// must be below the first, and the chain must have some length.
 std::string why_no_curve(const HumanoidPart& part, const BoneChain& chain);
 
-/// One per curve; null where the character has no such chain.
+/// One per curve; null if the character has no such chain.
 using BentChains = std::vector<std::unique_ptr<humanoid::BentChain>>;
 
 /// Bends the pose along all curves. One report each; an empty one if the chain is missing.
@@ -64,13 +65,13 @@ std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& ch
 std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::BentChain& chain,
                                         const CurveShape& before, const std::vector<glm::vec3>& points);
 
-// In the view.
+// In the view
 
 /// The curve in the character's space: its control points, and before them the chain's first joint.
 std::vector<glm::vec3> shown_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                                    std::size_t curve);
 
-/// The part of a curve that was picked: a control point, or a position on it as for ik::curve_point() of
+/// The picked part of a curve: a control point, or a position on it as for ik::curve_point() of
 /// shown_curve().
 struct PickedCurve {
     std::size_t curve = 0;
@@ -82,7 +83,7 @@ std::vector<Handle> curve_handles(const HumanoidPart& part, Solvers& solvers, co
 std::string curve_hint(const HumanoidPart& part, const PickedCurve& picked);
 void draw_bone_curves(const View& view, DrawList& list, const HumanoidPart& part, Solvers& solvers,
                       const ShownPose& shown);
-/// For the mouse: move a control point, remove it, or add one where the curve was clicked.
+/// For the mouse: moves a control point, removes it, or adds one where the curve was clicked.
 void drag_control(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                   const PickedCurve& picked, glm::vec3 to, Emit& emit);
 void remove_control(const HumanoidPart& part, const PickedCurve& picked, Emit& emit);

@@ -29,11 +29,11 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
                           state.hold, {.body = options});
 }
 
-// In words and in --state.
+// The hold in words and in --state.
 
 namespace {
 
-/// Smaller amounts are not reported, metres and radians.
+/// Smaller amounts are not reported; metres and radians.
 constexpr double told_way = 5e-4, told_turn = 9e-3;
 
 /// "left upper arm"
@@ -148,7 +148,7 @@ humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part, He
     ahead.y = 0.0;
     ahead = glm::length(ahead) > 1e-6 ? glm::normalize(ahead) : facing.forward;
     const glm::dvec3 left = glm::cross(facing.up, ahead);
-    // A rifle's stock is beside the chest, not in it.
+    // A rifle's stock is beside the chest, not inside it.
     const glm::dvec3 aside = kind == HeldKind::Rifle ? 0.09 * facing.up - 0.25 * left : glm::dvec3(0.0);
     return {0.5 * (at(Bone::LeftUpperArm) + at(Bone::RightUpperArm)) +
                 arm * (0.68 * ahead - 0.32 * facing.up + aside),
@@ -165,7 +165,7 @@ void set_hold(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     HoldSetting setting = part.ik.hold.value_or(HoldSetting());
     const bool with_body = setting.with_body;
     humanoid::ObjectPose asked = setting.asked(now.shown.hips);
-    set_fields(given, setting, "rotation");  // which is in the character's space
+    set_fields(given, setting, "rotation");  // the rotation is in the character's space
     if (!part.ik.hold) asked = before_chest(now, part, setting.kind);
     place_as_given(given, asked);
     if (!part.ik.hold || setting.with_body != with_body || given.has("to") || given.has("rotation"))
@@ -216,7 +216,7 @@ void add_hold_commands(CommandTable& table) {
                          release_hold));
 }
 
-// The held object in the picture, under the mouse and in the panel.
+// The held object in the picture, the mouse and the panel.
 
 Handle hold_handle(const HoldSetting& setting, const ShownPose& shown) {
     const humanoid::ObjectPose asked = setting.asked(shown.hips);

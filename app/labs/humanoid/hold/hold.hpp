@@ -11,7 +11,7 @@ namespace tendril::app {
 /// The pick id of the object.
 inline constexpr PickId hold_pick = first_effector_pick + 101;
 
-/// Whether the hand holds the object, so that it can have no target of its own.
+/// True if the hand holds the object; it then has no target of its own.
 inline bool holds(const HumanoidPart& part, humanoid::Effector effector) {
     return part.ik.hold && part.ik.hold->holds(effector);
 }
@@ -21,12 +21,12 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
                                           std::span<const humanoid::BodyTarget> targets,
                                           const humanoid::BodyOptions& options, IkState& state);
 
-/// At its requested pose, for the mouse.
+/// The handle is at the object's requested pose.
 Handle hold_handle(const HoldSetting& setting, const ShownPose& shown);
 void drag_hold(const HoldSetting& setting, const ShownPose& shown, const Handle::Frame& to, Emit& emit);
 
-/// Whether the object is off its requested pose, and whether a hand is on its grip, up to reported amounts:
-/// half a millimetre, half a degree. HoldReport::closed() is stricter.
+/// Whether the object is off its requested pose, and whether a hand is on its grip, within the reported
+/// amounts: half a millimetre, half a degree. HoldReport::closed() is stricter.
 bool gives_way(const humanoid::HoldReport& report);
 
 /// "The wheel gives way by 12 cm", and why: "The left arm is straight."

@@ -122,7 +122,7 @@ humanoid::Palm palm_on(HeldKind kind, double side, double size) {
     if (side > 0.0)
         return {hand, {0, -0.02 * size, rifle_fore * rifle_length * size}, {-1, 0, 1}, {0, 1, 0}, {0, 0, 1}};
     // The palm is on the grip's side, and the wrist is behind and below it, clear of the stock: by 28 mm for
-    // a forearm of 38 mm at 1.8 m. With fingers straight ahead the stock was 37 mm in it.
+    // a forearm of 38 mm at 1.8 m. With fingers straight ahead the stock was 37 mm inside it.
     return {hand,
             {-0.018 * size, -0.03 * size, (rifle_rear + 0.07) * rifle_length * size},
             {0.3, 0.5, 0.8},

@@ -23,12 +23,12 @@ enum class HoldingHands : std::uint8_t { Both, Left, Right };
 inline constexpr EnumNames<HoldingHands, 3> holding_hands{
     "hands", {{"both", "both"}, {"left", "left"}, {"right", "right"}}};
 
-/// Unturned, the object's X is the character's left, Y up, Z forward.
+/// Before rotation, the object's X is the character's left, Y up, Z forward.
 struct HoldSetting {
     HeldKind kind = HeldKind::Wheel;
     HoldingHands hands = HoldingHands::Both;
     double size = 1.0;      ///< 1: usual for the character's height
-    bool with_body = true;  ///< moves with the hips, as clip and ground place them
+    bool with_body = true;  ///< moves with the hips as clip and ground place them
     /// Requested position of its middle, metres: from the hips and turned with them if it moves with the
     /// body, else in the character's space.
     glm::dvec3 position{0.0};

@@ -163,7 +163,7 @@ class GroundDrawing {
     }
 
   private:
-    /// Whether a box is between the eye and the figure: a camera that turns passes through stairs.
+    /// True if a box is between the eye and the figure: a rotating camera passes through stairs.
     bool hides(const glm::vec3& middle, const glm::vec3& half) const {
         const glm::vec3 eye = view_.camera.eye();
         float enters = 0.0f, leaves = 1.0f;  // fractions of the way from the eye to the figure

@@ -17,7 +17,7 @@ namespace tendril::app {
 namespace {
 
 /// Starts the release if an effector lost its target or grip and has neither now. `settings` and `pose` are
-/// those before the change. Toggling hand IK takes effect at once: its curves and view cone do the easing.
+/// those before the change. Toggling hand IK takes effect at once: its curves and view cone already ease.
 void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<rig::Transform>& pose) {
     const HumanoidPart& part = humanoid_part(workspace);
     const auto free = [](const IkSettings& ik, humanoid::Effector each) {
@@ -34,7 +34,7 @@ void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<
     if (!plays) return;
     Release release = release_between(pose, shown_pose(workspace).before_springs,
                                       humanoid_part(workspace).node_of(humanoid::Bone::Hips));
-    // In the same change the other hand may have taken the object: it is on its grip at once.
+    // The other hand may have taken the object in the same change: it is on its grip at once.
     const HumanoidPart& now = humanoid_part(workspace);
     for (const humanoid::Effector hand : both_hands)
         if (holds(now, hand) && !(settings.hold && settings.hold->holds(hand)))
@@ -95,7 +95,7 @@ std::vector<Effector> effectors_named(const Arguments& given) {
     return effectors;
 }
 
-/// The effector's target, which is created at its current position if it has none.
+/// The effector's target; creates one at its current position if needed.
 humanoid::BodyTarget& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
     std::optional<humanoid::BodyTarget>& target = part.ik.target(effector);
     if (holds(part, effector))
@@ -157,7 +157,7 @@ void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     const LimitsFrom from = limits_from.value(given.text("from"));
     if (from == LimitsFrom::Motion && part.loaded->clips().empty())
         throw std::invalid_argument("the character has no clips to learn limits from");
-    part.ik_state.body = {};  // it moves only as far as its targets do, so new limits need a fresh start
+    part.ik_state.body = {};  // the body only moves as far as its targets, so new limits need a fresh start
     if (!given.has("bone") && !given.has("bones")) {
         part.ik.limits = from;
         part.ik.joint_limits.clear();
@@ -195,7 +195,7 @@ void look_from_aside(Workspace& workspace) {
 void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     FootIkSetting& setting = part.ik.foot_ik;
     set_fields(given, setting);
-    // A speed that is not given moves along with the other one.
+    // If only one of the two speeds is given, the other follows.
     auto &enter = setting.options.enter_speed, &leave = setting.options.leave_speed;
     if (!given.has("leave_speed")) leave = std::max(leave, enter);
     if (!given.has("enter_speed")) enter = std::min(leave, enter);
@@ -263,12 +263,12 @@ namespace {
 HandCurve curve_over(const humanoid::Clip* clip) {
     if (clip == nullptr) return {};
     const HandCurve usual;
-    // In whole hundredths, as the panel shows them.
+    // In whole hundredths, as in the panel.
     const auto at = [&](double time) { return std::round(100.0 * time / 1.2 * clip->duration) / 100.0; };
     return {at(usual.begin), at(usual.full), at(usual.until), at(usual.end)};
 }
 
-/// Times that are not given move along, so that the four may be typed in any order.
+/// Times that are not given move along, so the four may be typed in any order.
 HandCurve with_times(HandCurve curve, const Arguments& given) {
     set_fields(given, curve);
     for (const Field& time : fields<HandCurve>())
@@ -304,7 +304,7 @@ void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (hand != "left") set_curve(part, 1, given);
 }
 
-/// In front of the head: the position for a look-at that has none yet.
+/// A position in front of the head, for a look-at without one.
 glm::dvec3 ahead_of_head(const IkNow& now, const HumanoidPart& part) {
     const glm::dvec3 forward = humanoid::facing(part.skeleton(), *part.map).forward;
     const std::size_t head = *part.node_of(humanoid::Bone::Head);
@@ -341,7 +341,7 @@ void set_balance(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (on) require_body(now, part);
     if (on && now.solvers.masses(part) == nullptr)
         throw std::invalid_argument("balance is not possible: " + now.solvers.why_no_feet(part));
-    part.ik_state.body = {};  // it moves only as far as its targets do
+    part.ik_state.body = {};  // the body only moves as far as its targets
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ void target_rows(const HumanoidPanel& panel) {
                     [&](MoreRows& more) { body_rows(panel, more); });
 }
 
-// Hands that a clip moves, and what the head looks at.
+// Hands moved by a clip, and the look-at target.
 
 namespace {
 
@@ -142,7 +142,7 @@ void shape_rows(const HumanoidPanel& panel) {
     if (ground.kind == GroundKind::Stairs) rows.rows("step_height", "step_depth");
 }
 
-/// What a foot does, or why it follows the clip.
+/// A foot's state, or why it follows the clip.
 void foot_row(const HumanoidPanel& panel, std::size_t side) {
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (!shown.feet) return;

@@ -32,7 +32,7 @@ std::string title(humanoid::Effector effector) {
     return text;
 }
 
-// IK in a scene file: its settings, and what it remembers between ticks.
+// IK in a scene file: its settings, and its state between ticks.
 
 namespace {
 
@@ -151,7 +151,7 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
           {"held", "hands", "look", "steps", "body", "weights", "outside"}}},
         {"targets", "joint_limits", "ground", "hand_ik", "release", "feet"});  // older files: "feet"
     if (const auto held = place.optional("held"))
-        static_cast<void>((*held)["hands"]);  // of its own, not newer
+        static_cast<void>((*held)["hands"]);  // required: not a newer member
     if (const Result bad = check(ik.foot_ik.options); !bad) place["foot_ik"].fail(bad.message());
     if (const auto targets = place.optional("targets")) read_targets(*targets, ik);
     if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, ik);

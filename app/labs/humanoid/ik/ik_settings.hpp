@@ -1,4 +1,4 @@
-// A character's IK settings, the ground that it walks on, and what IK and springs remember between ticks. All
+// A character's IK settings, the ground that it walks on, and the state of IK and springs between ticks. All
 // values.
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace tendril::app {
 
-// The user's setting of the ground that the character walks on, and its drawing.
+// The user's setting of the ground, and its drawing.
 
 inline constexpr EnumNames<humanoid::GroundKind, 6> ground_kinds{
     "kind of ground",
@@ -47,7 +47,7 @@ struct GroundMesh : OutsideFile {
 /// with the file name.
 std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path, const std::string& file = {});
 
-/// Values that belong to other kinds are kept.
+/// Keeps the values of other kinds.
 struct GroundSetting {
     humanoid::GroundKind kind = humanoid::GroundKind::None;
     double angle_deg = 20.0;                      ///< of the slope, -steepest_deg to steepest_deg
@@ -62,7 +62,7 @@ humanoid::HeightField hills();
 /// Throws std::invalid_argument with the library's message.
 humanoid::Ground make_ground(const GroundSetting& setting);
 
-// Drawing of the ground, except for the level ground that every scene shows.
+// Drawing of the ground, except the level ground that every scene shows.
 
 /// Draws the part around a point, whose height is ignored.
 void draw_ground(const View& view, DrawList& list, const GroundSetting& ground, glm::vec3 around);
@@ -74,10 +74,10 @@ inline constexpr EnumNames<LimitsFrom, 3> limits_from{
      {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
      {"none", "none", "Joints turn as far as they are asked to."}}};
 
-// The library's options, plus the lab's own. Files, commands and panels have the options that the tables
-// list; the others keep their defaults, or follow from clip and character.
+// The library's options, plus the lab's own. Files, commands and panels have the options in the tables; the
+// others keep their defaults, or follow from clip and character.
 
-/// `options.floor` and `options.root_velocity` follow from the clip.
+/// `options.floor` and `options.root_velocity` come from the clip.
 struct FootIkSetting {
     bool on = false;
     humanoid::FeetOptions options{};
@@ -90,7 +90,7 @@ struct HandCurve {
     bool operator==(const HandCurve&) const = default;
 };
 
-/// Hand IK: the clip moves the hands, and each arm alone blends its hand to the target.
+/// Hand IK: the clip moves the hands, and each arm alone blends its hand towards the target.
 struct HandIkSetting {
     bool on = false;
     humanoid::HandsOptions options{};
@@ -108,7 +108,7 @@ struct LookAtSetting {
 /// Balance of a body that reaches: `body.balance` switches it on.
 struct BalanceSetting {
     humanoid::BodyOptions body{};
-    bool steps = true;  ///< a foot steps when shifting the hips is not enough; needs running time
+    bool steps = true;  ///< a foot steps when shifting the hips is not enough; only while time passes
     humanoid::FootstepOptions footsteps{};
     bool operator==(const BalanceSetting&) const = default;
 };
@@ -116,14 +116,14 @@ struct BalanceSetting {
 struct IkSettings {
     std::array<std::optional<humanoid::BodyTarget>, humanoid::effector_count> targets{};
     LimitsFrom limits = LimitsFrom::Defaults;
-    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< joints with a source of their own
+    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< joints whose limits have a source of their own
     bool self_collision = false;                          ///< keeps hands and lower arms out of the body
     BalanceSetting balance;
     GroundSetting ground;
     FootIkSetting foot_ik;
     HandIkSetting hand_ik;
     LookAtSetting look_at;
-    std::optional<HoldSetting> hold{};  ///< the hands that hold it have no targets
+    std::optional<HoldSetting> hold{};  ///< the holding hands have no targets
     bool operator==(const IkSettings&) const = default;
 
     std::optional<humanoid::BodyTarget>& target(humanoid::Effector effector) {
@@ -139,7 +139,7 @@ struct IkSettings {
     const humanoid::BodyTarget* hand_target(std::size_t hand) const;
 };
 
-/// The difference that still fades out after a target was released; see release_between().
+/// The fading difference after a target was released; see release_between().
 struct Release {
     double left = 0.0;  ///< seconds until it ends
     /// By node, relative to its local rotation.
@@ -186,10 +186,10 @@ template <>
 std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< except for its curves
 template <>
 std::span<const Field> fields<app::LookAtSetting>() noexcept;
-/// Except for targets, joints' own limits, ground and hand IK.
+/// Excludes targets, joints' own limits, ground and hand IK.
 template <>
 std::span<const Field> fields<app::IkSettings>() noexcept;
-/// Except for springs and release.
+/// Excludes springs and release.
 template <>
 std::span<const Field> fields<app::IkState>() noexcept;
 

@@ -18,7 +18,7 @@ std::vector<humanoid::Placement> placed(const HumanoidPart& part, const std::vec
     return placements;
 }
 
-/// Whether hand IK moves the effector.
+/// True if hand IK moves the effector.
 bool is_hand(const IkSettings& ik, humanoid::Effector effector) {
     return ik.hand_ik.on && std::ranges::find(both_hands, effector) != both_hands.end();
 }
@@ -37,7 +37,7 @@ void stand(const HumanoidPart& part, Solvers& solvers, ShownPose& shown) {
     if (before.deepest.depth > shown.deepest.depth) shown.deepest = before.deepest;
 }
 
-/// The stored state may belong to another body, if a file was edited; then it is reset.
+/// If a file was edited, the stored state may belong to another body; reset it then.
 void reach(const HumanoidPart& part, humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets,
            humanoid::BodyOptions options, double dt, IkState& state, ShownPose& shown) {
     if (state.release.left > 0.0) options.settle = std::min(settle_speed * dt, 1.0);
@@ -103,7 +103,7 @@ std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
     return targets;
 }
 
-/// The ground decides which feet stand only if foot IK brings them there.
+/// The ground decides which feet stand only if foot IK puts them there.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers) {
     humanoid::BodyOptions options = part.ik.balance.body;
     if (options.balance && part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None)
@@ -157,7 +157,7 @@ std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
 
 namespace {
 
-/// Full-body IK with the feet that step, and the next step.
+/// Full-body IK including stepping feet, then the next step.
 void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& body, double dt,
                     IkState& state, ShownPose& shown) {
     humanoid::BodyOptions options = body_options(part, solvers);
@@ -191,7 +191,7 @@ void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
     if (body != nullptr && acts) reach_and_step(part, solvers, *body, dt, state, shown);
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
-    // Resolves collisions that the clip or hand IK alone would cause.
+    // Resolves collisions from the clip or hand IK alone.
     if (body != nullptr && !acts) reach(part, *body, {}, body_options(part, solvers), dt, state, shown);
     pass(state.release, dt);
     apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));

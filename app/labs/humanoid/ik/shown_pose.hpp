@@ -16,9 +16,9 @@ struct ShownPose {
     std::vector<rig::Transform> local;
     std::vector<rig::Transform> before_springs;
     std::vector<humanoid::Placement> placed;
-    /// Before anything modified the pose of the clip; empty if nothing did.
+    /// The clip's pose before anything modified it; empty if nothing did.
     std::vector<humanoid::Placement> before;
-    std::vector<humanoid::Placement> ghost;       ///< `before`, also without the clip's fixes
+    std::vector<humanoid::Placement> ghost;       ///< `before`, and without the clip's fixes
     std::optional<humanoid::BodyReport> body;     ///< if there is a target
     std::optional<humanoid::HoldReport> hold;     ///< if the hands hold an object
     humanoid::ObjectPose hips;                    ///< before IK of the body, turned from rest
@@ -26,7 +26,7 @@ struct ShownPose {
     std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
     humanoid::FeetState feet_state;               ///< the state of foot IK after it
-    FeetHistory::Deepest deepest{};               ///< deepest recent position of the feet in the ground
+    FeetHistory::Deepest deepest{};               ///< the deepest that a foot was in the ground lately
     std::vector<ik::CurveReport> curves;          ///< in the order of the part's curves
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
@@ -34,7 +34,7 @@ struct ShownPose {
     struct Balance {
         humanoid::Support support;
         glm::dvec3 centre{0.0};  ///< the centre of mass
-        double margin = 0.0;     ///< Support::margin() of it, metres
+        double margin = 0.0;     ///< Support::margin() of the centre, metres
     };
     std::optional<Balance> balance;   ///< if balance is on
     std::array<bool, 2> hand_goes{};  ///< whether hand IK moves it to its target
@@ -45,43 +45,43 @@ struct ShownPose {
     glm::vec3 point(std::size_t node) const { return glm::vec3(placed[node].position); }
 };
 
-/// Solves the pose `dt` seconds after `state` and updates `state`. With 0 no time passes, and the same part
-/// gives the same pose again. Feet on the ground depend only on the part: on its settings and the clip's
-/// time.
+/// Solves the pose `dt` seconds after `state` and updates `state`. With a dt of 0 no time passes, and the
+/// same part gives the same pose again. Feet on the ground depend only on the part: its settings and the
+/// clip's time.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
 
 // Input of the solvers, also for exported code.
 
-/// The pose of the clip, or of rest, before anything modifies it.
+/// The clip's pose, or the rest pose, before anything modifies it.
 std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
-/// Without the hands that hand IK moves.
+/// Without targets of hands that hand IK moves.
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
-/// Without the feet that step.
+/// Without the stepping feet.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
-/// Whether full-body IK runs before gaze and hands: there is a target or an object in the hands, or a foot
-/// has stepped away.
+/// True if full-body IK runs before gaze and hands: there is a target or a held object, or a foot has stepped
+/// away.
 bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 /// `body_solved`: targets hold the body, so only neck and head turn.
 humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved);
 humanoid::HandTargets hand_targets(const HumanoidPart& part);
 
-/// Moves the springs along with a pose that was set rather than reached over time.
+/// Moves the springs rigidly with a pose that was set, not reached over time.
 void carry_springs(Workspace& workspace);
 
-/// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
+/// Why a foot follows the clip although foot IK is on; empty if the ground moves it. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
-/// Where the centre of mass is: "4 cm inside the feet", "7 cm ahead of the feet"; "stepping" while a foot is
+/// Describes the centre of mass: "4 cm inside the feet", "7 cm ahead of the feet"; "stepping" while a foot is
 /// in the air. Balance must be on.
 std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
-/// Why balance, or a foot that would step, does nothing although it is on; empty if it acts.
+/// Why balance is on but does nothing, or a foot does not step; empty if it acts.
 std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
 
-/// Why foot IK hardly ever plants a foot of this clip; empty if it does, or if the foot is planted now.
+/// Why foot IK hardly ever plants a foot in this clip; empty if it does, or if the foot is planted now.
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side);
 
-/// How deep a foot has lately passed through the ground, and why; empty up to `max_depth`.
+/// How deep a foot was in the ground lately, and why; empty up to `max_depth`.
 std::optional<FeetHistory::Deepest> foot_in_ground(const ShownPose& shown);
 std::string why_in_ground(const HumanoidPart& part, const FeetHistory::Deepest& deepest);
 inline constexpr double max_depth = 0.01;  ///< metres
@@ -90,26 +90,26 @@ inline constexpr double max_depth = 0.01;  ///< metres
 const ShownPose& shown_pose(const Workspace& workspace);
 /// The point below the hips, or below the first node.
 glm::vec3 standing_at(const Workspace& workspace);
-/// For commands that change IK: solves, and stores what IK remembers. Throws std::invalid_argument if the
-/// library refuses a target.
+/// For commands that change IK: solves, and stores the new state. Throws std::invalid_argument if the library
+/// refuses a target.
 void solve_now(Workspace& workspace);
 
-// Releasing a target: the limb eases back to the clip, and the rest of the body relaxes from what only that
-// target required.
+// Releasing a target: the limb eases back to the clip, and the rest of the body relaxes as far as only that
+// target held it.
 //
 // The new pose is computed at once. While a clip plays, the difference to the old pose is stored and fades
 // out (inertialization: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of War",
-// GDC 2018), so that no joint jumps, whatever changed. Without a playing clip the limb returns at once.
+// GDC 2018), so no joint jumps, whatever changed. Without a playing clip the limb returns at once.
 
 inline constexpr double release_seconds = 1.0;  ///< until everything has settled
 inline constexpr double fade_seconds = 0.2;     ///< until the limb is back
 /// Speed at which the rest of the body approaches the clip, m/s of a target.
 inline constexpr double settle_speed = 1.2;
 
-/// The difference that fades out: rotations and hips translation from `now` to `before`.
+/// The fading difference: rotations and hips translation from `now` to `before`.
 Release release_between(const std::vector<rig::Transform>& before, const std::vector<rig::Transform>& now,
                         std::optional<std::size_t> hips);
-/// The same for targets that were set at once: solves, and lets the difference to the pose `held` fade out.
+/// The same for targets that were set at once: solves, then fades out the difference from the pose `held`.
 void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held);
 /// 1 right after the release, 0 once it has faded out.
 double fading(const Release& release);

@@ -17,7 +17,7 @@ std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
     return humanoid::fitted_capsules(part.skeleton(), *part.map, skin_points(skin, part.loaded->rest));
 }
 
-/// Maximum number of blocks remembered, for a clip that is scrubbed from end to end.
+/// Maximum number of blocks kept, for a clip that is scrubbed from end to end.
 constexpr std::size_t most_pasts = 32;
 
 /// Steps through a clip's ticks.
@@ -289,7 +289,7 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
         pasts_.clear();
     }
     const double seconds = static_cast<double>(part.playback.rounds) * clip->duration + part.playback.time;
-    // The last tick before the moment; a moment on a tick is reached by a whole step.
+    // The last tick before the moment. A moment on a tick is reached by a whole step.
     const auto tick = static_cast<std::int64_t>(std::ceil(seconds / tick_seconds - 1e-6)) - 1;
     if (tick < 0) return {};
     const std::int64_t block = tick / block_ticks;
@@ -300,7 +300,7 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
     for (std::int64_t i = std::max<std::int64_t>(tick - begin - lately, 0); i <= tick - begin; ++i)
         found.deepest =
             std::ranges::max(found.deepest, deepest[static_cast<std::size_t>(i)], {}, &Deepest::depth);
-    // While the clip plays, the past of the next block is computed along, so that no frame has to catch up.
+    // While the clip plays, the past of the next block is computed too, so that no frame has to catch up.
     if (block > 0) {
         const std::int64_t next = block * block_ticks, known = pasts_.contains(next) ? pasts_[next].tick : -1;
         at(std::min(tick, next + known + 2), next, part, solvers);

@@ -21,14 +21,14 @@ class Solvers;
 
 /// The state of foot IK at each moment of a clip.
 ///
-/// Corrected feet depend on earlier frames: hips ease, and feet stay where they were put down. For a moment
-/// to look the same whether played, scrubbed to or exported, its past is always the same: the clip from its
+/// Corrected feet depend on earlier frames: hips ease, and feet stay where they were put down. A moment must
+/// look the same whether played, scrubbed to or exported, so its past is always the same: the clip from its
 /// start, in steps of a tick at the recorded speed. From the second block of `block_ticks` on, the past
 /// begins one block earlier, which bounds the work. Only a foot that has not left the ground for half a
 /// minute differs.
 ///
-/// Cost: a moment after the last one takes one step, some 50 µs; another in the same blocks at most
-/// `ticks_apart`; the first one with other settings all since the start, up to 0.2 s after a minute.
+/// Cost: a moment after the last one takes one step, some 50 µs; any other in the same blocks at most
+/// `ticks_apart`; the first one after a change of settings all since the start, up to 0.2 s after a minute.
 class FeetHistory {
   public:
     static constexpr std::int64_t block_ticks = 1800;  ///< 30 s
@@ -38,7 +38,7 @@ class FeetHistory {
     struct Deepest {
         std::size_t side = 0;  ///< 0 is left
         double depth = 0.0;    ///< metres
-        double late = 0.0;     ///< how far it still had to rise then, metres
+        double late = 0.0;     ///< the distance it still had to rise then, metres
         bool operator==(const Deepest&) const = default;
     };
     static constexpr std::int64_t lately = 120;
@@ -46,12 +46,12 @@ class FeetHistory {
     struct Before {
         humanoid::FeetState state{};
         Deepest deepest{};
-        double dt = 0.0;  ///< seconds from there to the moment; 0: nothing came before
+        double dt = 0.0;  ///< seconds from there to the moment; 0: no earlier state
     };
-    /// The state from which to step to the part's moment. Needs feet. The rest pose has no past.
+    /// The state before the part's moment, to step from. Needs feet. The rest pose has no past.
     Before before(const HumanoidPart& part, Solvers& solvers);
 
-    /// The deeper of both feet.
+    /// The deeper of the two feet.
     static Deepest deepest_of(const humanoid::FeetReport& report);
 
   private:
@@ -65,17 +65,17 @@ class FeetHistory {
         FootIkSetting foot_ik;
         bool operator==(const Of&) const = default;
     };
-    /// The states since a tick, step by step.
+    /// States from a tick on, step by step.
     struct Past {
         std::vector<humanoid::FeetState> kept{};  // every ticks_apart
         std::vector<Deepest> deepest{};           // at each tick
         humanoid::FeetState last{};
-        std::int64_t tick = -1;  // of `last`, since the beginning of this past
+        std::int64_t tick = -1;  // of `last`, since this past began
     };
     humanoid::FeetState at(std::int64_t tick, std::int64_t begin, const HumanoidPart& part, Solvers& solvers);
 
     Of of_{};
-    std::map<std::int64_t, Past> pasts_;  // by their first tick
+    std::map<std::int64_t, Past> pasts_;  // by first tick
 };
 
 class LimitRanges;
@@ -87,41 +87,41 @@ class Solvers {
     Solvers(const Solvers&) = delete;
     Solvers& operator=(const Solvers&) = delete;
 
-    /// Null if the map allows none; why_no_body() then has the reason.
+    /// Null if the map cannot be solved; why_no_body() then has the reason.
     humanoid::Body* body(const HumanoidPart& part);
     /// "LeftHand and RightHand are missing"; empty if there is a body.
     const std::string& why_no_body(const HumanoidPart& part);
-    /// With the soles of the chosen clip. Null if the map has no legs that can be solved.
+    /// With the chosen clip's soles. Null if the map has no legs that can be solved.
     const humanoid::Feet* feet(const HumanoidPart& part);
     /// Null if there is no body, or no feet.
     const humanoid::Masses* masses(const HumanoidPart& part);
     /// Null if the map does not describe a body; why_no_body() then has the reason.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
-    /// In the order of the part's springs; null where the bone map leaves no room for one, for which
-    /// why_no_spring() has the reason.
+    /// In the order of the part's springs; null if the bone map leaves no room for one, and why_no_spring()
+    /// has the reason.
     const SpringChains& springs(const HumanoidPart& part);
-    /// In the order of the part's curves; null where the character has no such chain.
+    /// In the order of the part's curves; null if the character has no such chain.
     const BentChains& curves(const HumanoidPart& part);
     /// Empty if there are feet.
     const std::string& why_no_feet(const HumanoidPart& part);
     /// Height of the clip's own floor, metres; empty for the rest pose.
     std::optional<double> floor(const HumanoidPart& part);
-    /// How fast the clip moves each foot while it is low over the clip's floor, and how fast the hips travel.
+    /// The speed of each foot while it is low over the clip's floor, and of the hips.
     struct Gait {
-        std::array<double, 2> slide{};  ///< m/s, the median of the toe; left, right. 0 if it is never low
+        std::array<double, 2> slide{};  ///< m/s, median of the toe; left, right. 0 if it is never low
         double travel = 0.0;            ///< m/s
         glm::dvec3 pace{0.0};           ///< see pace_of()
     };
     /// Null for the rest pose, or without feet.
     const Gait* gait(const HumanoidPart& part);
-    /// The capsules that self-collision keeps apart; empty if that is off.
+    /// The capsules that self-collision keeps apart; empty if it is off.
     const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
-    /// The volume of the mapped bones, on which attachments rest.
+    /// The volume of the mapped bones, which attachments rest on.
     const std::vector<humanoid::BodyCapsule>& volume(const HumanoidPart& part);
     const humanoid::Ground& ground(const HumanoidPart& part);
     FeetHistory& feet_history() { return feet_history_; }
-    /// The ranges to choose joint limits from.
+    /// The available ranges of joint limits.
     const LimitRanges& limits(const HumanoidPart& part);
 
   private:
@@ -158,8 +158,8 @@ class Solvers {
     std::unique_ptr<LimitRanges> ranges_;
 };
 
-// The chains of a body in the order in which they are solved: layer 0 the hips, layer 1 legs and spine,
-// layer 2 arms, neck and head.
+// The chains of a body in the order of solving: layer 0 the hips, layer 1 legs and spine, layer 2 arms, neck
+// and head.
 
 struct BodyChain {
     int layer = 0;

@@ -1,5 +1,5 @@
-// The inspector and the drawing of joint limits. The table shows the active joint in degrees: its rotation,
-// an adult's range and that of the clips. The range to use is set on all selected joints.
+// Inspector and drawing of joint limits. The table shows the active joint in degrees: its rotation, an
+// adult's range and the clips' range. The range to use is set on all selected joints.
 #include "app/labs/humanoid/draw.hpp"
 
 #include <imgui.h>
@@ -68,7 +68,7 @@ std::vector<Way> ways_of(Bone bone, const ik::Limit& limit) {
     const bool right = bone >= Bone::RightShoulder && bone <= Bone::RightHand;
     const bool foot = bone == Bone::LeftFoot || bone == Bone::RightFoot;
     const char* const first = is_arm(bone) || foot ? "up" : "forward";
-    const char* second = "left";  // of a leg: as the character sees it
+    const char* second = "left";  // on a leg: from the character's view
     if (is_arm(bone)) second = right ? "forward" : "back";
     if (bone <= Bone::Head) second = "right";
     return {{first, "From the T-pose; the other way is negative.", &ik::JointAngles::up, first_swing},
@@ -144,13 +144,13 @@ std::string in_words(const JointNow& joint) {
 
 using Joints = std::vector<Bone>;
 
-/// Arguments of a command that sets where the joints take their limits from.
+/// Arguments of a command that sets where joints take their limits from.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
     return {{"from", limits_from.name(from)},
             one_or_list("bone", "bones", names(joints, [](Bone each) { return humanoid::name(each); }))};
 }
 
-/// Chooses the source of the limits. Each joint uses its own range from it, about its own axes.
+/// Chooses the source of the limits. Each joint uses its own range from that source, about its own axes.
 void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom shown) {
     const LimitRanges& ranges = panel.runtime.solvers.limits(panel.part);
     Joints turned;
@@ -261,7 +261,7 @@ class LimitDrawing {
                 .layer = Layer::Overlay;
     }
 
-    /// Draws only the limit in force: learning those of the clips takes a while the first time.
+    /// Draws only the limit in force: learning the clips' limits takes a while the first time.
     void held_back(Bone bone) {
         const LimitRanges& ranges = solvers_.limits(part_);
         const ik::Limit limit = ranges.in_force(part_.ik)[static_cast<std::size_t>(bone)];
@@ -362,7 +362,7 @@ std::vector<LegendRow> limits_legend(const Workspace& workspace) {
     }
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows;
-    const bool handle = part.view.limits != LimitsShown::All;  // only of the selection
+    const bool handle = part.view.limits != LimitsShown::All;  // only of selected joints
     if (adult)
         rows.push_back({.name = "an adult's range", .colour = adult_colour(colours), .handle = handle});
     if (clips)

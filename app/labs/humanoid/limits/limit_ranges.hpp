@@ -1,4 +1,4 @@
-// Joint limits of a character: the ranges of an adult, and those of its clips. The user chooses between them,
+// Joint limits of a character: an adult's ranges, and those seen in its clips. The user chooses between them,
 // for all joints or for each.
 #pragma once
 
@@ -66,7 +66,7 @@ float excess_of(const ik::Limit& limit, ik::JointAngles angles);
 
 struct SelectedJoints {
     std::vector<humanoid::Bone> all;      ///< in bone order
-    std::optional<humanoid::Bone> shown;  ///< the active joint, or if it has no limits the last selected one
+    std::optional<humanoid::Bone> shown;  ///< the active joint or, if without limits, the last selected one
 
     bool has(humanoid::Bone bone) const;
 };

@@ -40,7 +40,7 @@ std::vector<BodyFlip> turned_bones(const HumanoidMoment& was, const HumanoidMome
     return turned;
 }
 
-/// Whether the node belongs to that arm.
+/// True if the node belongs to that arm.
 bool in_arm(const HumanoidPart& part, std::size_t node, std::size_t hand) {
     constexpr Bone arms[2][2]{{Bone::LeftShoulder, Bone::LeftUpperArm},
                               {Bone::RightShoulder, Bone::RightUpperArm}};
@@ -50,7 +50,7 @@ bool in_arm(const HumanoidPart& part, std::size_t node, std::size_t hand) {
     });
 }
 
-/// The inputs that may have turned a bone between two moments, as seen from its position in the clip.
+/// The inputs that may have turned a bone between two moments, relative to its position in the clip.
 std::vector<InputMove> inputs_of(const HumanoidMoment& was, const HumanoidMoment& is, std::size_t node) {
     const IkSettings &before = was.part.ik, &after = is.part.ik;
     const auto seen = [&](const glm::dvec3& from, const glm::dvec3& to) {
@@ -131,7 +131,7 @@ Cause by_limb(const HumanoidMoment& was, const HumanoidMoment& is, const Limb& l
     return std::nullopt;
 }
 
-/// A limit of the bone, or of another one in its chain.
+/// By a limit of the bone, or of another in its chain.
 Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::vector<Bone>& chain) {
     if (!was.shown.body || !is.shown.body) return std::nullopt;
     for (const Bone bone : chain) {
@@ -143,7 +143,7 @@ Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::v
     return std::nullopt;
 }
 
-/// From the solve reports and poses, or "cause not known".
+/// From solve reports and poses, or "cause not known".
 std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, Bone bone) {
     for (const BodyChain& chain : body_chains(*is.part.map)) {
         const auto node = is.part.node_of(bone);
@@ -167,7 +167,7 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
     if (fading(was.part.ik_state.release) > 0.0 || fading(is.part.ik_state.release) > 0.0) return {};
     const humanoid::Skeleton& skeleton = is.part.skeleton();
     std::vector<BodyFlip> flipped = turned_bones(was, is, solvers);
-    std::vector<std::size_t> driven;  // nodes, whose descendants move with them
+    std::vector<std::size_t> driven;  // the nodes below them move with them
     std::erase_if(flipped, [&](const BodyFlip& bone) {
         const bool along =
             std::ranges::any_of(driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });

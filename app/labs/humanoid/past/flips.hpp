@@ -1,4 +1,4 @@
-// Which bones of a body jumped from one pose to the next although their drivers hardly moved, and why.
+// Finds bones of a body that jumped from one pose to the next although their inputs hardly moved, and why.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ struct HumanoidMoment {
     }
 };
 
-/// A bone that flipped, by FlipRule: the clip did not turn it or an ancestor that much, and no target moved
-/// far, as seen from where the clip puts the bone. A change of a blend weight by the rule's share counts as
-/// moving far. Descendants of a driven bone move with it and do not flip.
+/// A bone that flipped, by FlipRule: the clip did not turn it or an ancestor that far, and no target moved
+/// far relative to the bone's place in the clip. Changing a blend weight by the rule's share counts as moving
+/// far. Descendants of a driven bone move with it and do not flip.
 struct BodyFlip {
     humanoid::Bone bone = humanoid::Bone::Hips;
     std::size_t node = 0;
@@ -39,8 +39,8 @@ struct BodyFlip {
 /// released target fades out. Ignores nodes that springs turn.
 std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers);
 
-// The displayed character at a moment of the last ten seconds. A part stores no pose: it takes a whole solve,
-// so it is computed once per moment.
+// The displayed character at a moment of the last ten seconds. A part stores no pose, and computing one takes
+// a whole solve, so it is computed once per moment.
 
 struct PastPose {
     struct Node {
@@ -48,7 +48,7 @@ struct PastPose {
         glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
     };
     std::vector<Node> nodes;
-    /// Distances of effectors to their targets, metres; NaN for those without one.
+    /// Distances from effectors to their targets, metres; NaN for those without one.
     std::array<float, humanoid::effector_count> left{};
 };
 inline std::size_t bytes_beyond(const PastPose& pose) {

@@ -103,7 +103,7 @@ std::function<bool(const SharedPart&)> known_to(const Workspace& workspace) {
     return [&past = humanoid_runtime(workspace).past](const SharedPart& part) { return past.has(part); };
 }
 
-/// For the selected effector, or for the one farthest from its target.
+/// The error of the selected effector or, without one, the one farthest from its target.
 PastCurve error_curve(const Workspace& workspace) {
     const HumanoidPart& now = humanoid_part(workspace);
     const auto effector = selected_effector(now);
@@ -116,7 +116,7 @@ PastCurve error_curve(const Workspace& workspace) {
             .at_hand = known_to(workspace)};
 }
 
-/// For the active node, or else for the left elbow.
+/// The rotation of the active node or, if there is none, the left elbow.
 PastCurve turn_curve(const Workspace& workspace, const char* what, double JointTurn::*number) {
     const HumanoidPart& now = humanoid_part(workspace);
     const std::string node = now.skeleton()[plotted_node(now)].name;
@@ -167,7 +167,7 @@ IkSettings without_places(IkSettings settings) {
     return settings;
 }
 
-/// Whether it is the same character under the same settings: only time passed and targets moved.
+/// True if both are the same character under the same settings: only time passed and targets moved.
 bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
     const Playback &before = was.playback, &after = is.playback;
     const bool plays = before.playing || (before.time == after.time && before.rounds == after.rounds);
@@ -200,7 +200,7 @@ void add_limits(const HumanoidMoment& was, const HumanoidMoment& is, std::vector
     }
 }
 
-/// Metres between an effector and its target; empty if it need not get there, such as a hand being blended.
+/// Metres between an effector and its target; empty if it need not get there, as while a hand is blended.
 std::optional<double> left_of(const HumanoidMoment& moment, humanoid::Effector effector) {
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (both_hands[hand] == effector && moment.shown.hand_goes[hand] &&

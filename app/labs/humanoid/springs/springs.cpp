@@ -58,7 +58,7 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
     return std::nullopt;
 }
 
-/// Which other spring would turn the same nodes; empty if none would.
+/// The other spring that would turn the same nodes; empty if there is none.
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     if (const auto there = spring_on(part, node))
@@ -79,8 +79,8 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PopID();
 }
 
-/// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
-/// no parent. Empty if there can be one, provided that the node has some length.
+/// Why the node cannot have a spring: another spring is in the way, or it belongs to the body or has no
+/// parent. Empty if it can; it must also have some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
@@ -95,7 +95,7 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     return overlap(part, node);
 }
 
-/// A chooser of the nodes that can have a spring.
+/// A list of the nodes that can have a spring.
 void add_row(const HumanoidPanel& panel) {
     const std::string none = "choose a node";
     if (!begin_list("add spring", &none)) {
@@ -135,7 +135,7 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
     if (colliding(panel.part, spring) != nullptr) rows.row("hit_radius");
 }
 
-/// The setting with which a spring on the node begins.
+/// The initial setting of a spring on the node.
 SpringSetting usual_spring(const HumanoidPart& part, std::size_t node) {
     SpringSetting setting{.node = part.skeleton()[node].name};
     for (const NamedSpring& each : part.loaded->character.springs)
@@ -261,7 +261,7 @@ bool at_rest(const SpringStates& states) {
     return true;
 }
 
-// The panel's rows and the commands about springs on the character's own nodes.
+// Panel rows and commands for springs on the character's own nodes.
 
 void settings_row(const HumanoidPanel& panel, const std::string& node, const char* command,
                   const char* argument, const char* help) {

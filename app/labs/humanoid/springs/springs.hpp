@@ -27,7 +27,7 @@ struct SpringSetting {
 inline double max_hit_radius() {
     return field_of<&humanoid::SpringOptions::hit_radius>().range.high;
 }
-/// Puts the springs of the character's file on it, but for those that are not possible.
+/// Adds the springs of the character's file, except impossible ones.
 void take_springs(HumanoidPart& part);
 /// The selected nodes that can have a spring, without descendants of one another.
 std::vector<std::size_t> selected_for_springs(const HumanoidPart& part);
@@ -47,7 +47,7 @@ namespace tendril::app {
 
 // Applying springs to a pose.
 
-/// The file's own spring from the same node down, if that has colliders; else null.
+/// The file's own spring from the same node down, if it has colliders; else null.
 const NamedSpring* colliding(const HumanoidPart& part, const SpringSetting& setting);
 humanoid::PlacedCapsule place(const SpringCollider& collider, const std::vector<humanoid::Placement>& placed);
 
@@ -55,14 +55,14 @@ humanoid::PlacedCapsule place(const SpringCollider& collider, const std::vector<
 using SpringChains = std::vector<std::unique_ptr<humanoid::SpringChain>>;
 using SpringStates = std::vector<humanoid::SpringChainState>;
 
-/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are where the pose has them before
-/// any spring turns it.
+/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are placed by the pose before any
+/// spring turns it.
 std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states);
-/// After the pose was set instead of reached over time.
+/// Call after the pose was set, not reached over time.
 void carry(const std::vector<SpringSetting>& settings, const SpringChains& chains,
            std::vector<rig::Transform> pose, SpringStates& states);
-/// Whether everything moves negligibly slowly.
+/// True if everything moves negligibly slowly.
 bool at_rest(const SpringStates& states);
 
 }  // namespace tendril::app
