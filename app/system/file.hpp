@@ -1,5 +1,5 @@
 // Files as the operating system has them: locked, synced, renamed, told apart. The files that the program
-// saves are made of these in document/atomic_file.hpp.
+// saves are made of these in atomic_file.hpp.
 #pragma once
 
 #include <cstdint>

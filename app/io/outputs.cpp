@@ -1,20 +1,19 @@
-#include "app/document/outputs.hpp"
+#include "app/io/outputs.hpp"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/outside_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// The same for all names of a file but hard links.
+/// The same for all paths to a file. One that has two names counts as two.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
     // A relative path without any existing part would stay as it is spelled.
