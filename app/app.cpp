@@ -6,16 +6,17 @@
 #include <tendril/version.hpp>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/ui.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/video_take.hpp"
+#include "app/view/picture.hpp"
 
 namespace tendril::app {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "app/app.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"

@@ -4,7 +4,7 @@
 
 #include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 

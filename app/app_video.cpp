@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/app.hpp"
-#include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/environment.hpp"
 #include "app/system/file.hpp"
 #include "app/video_take.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/runtime.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/environment.hpp"
 
 namespace tendril::app {

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "app/app.hpp"
-#include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/labs.hpp"
 #include "app/live_loop.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/environment.hpp"
 #include "app/system/file.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "app/io/picture.hpp"
+#include "app/view/picture.hpp"
 
 namespace tendril::app {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/json_scan.hpp"
 #include "app/document/refused.hpp"
 #include "app/fields/fields.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/fields/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/json_scan.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/json_place.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {

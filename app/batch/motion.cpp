@@ -7,12 +7,12 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/batch/output.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/retargeted_motion.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril::app {

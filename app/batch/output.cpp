@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/system/environment.hpp"
 
 namespace tendril::app {

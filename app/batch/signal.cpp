@@ -5,7 +5,7 @@
 #include <tendril/signal/run.hpp>
 
 #include "app/batch/output.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/fit.hpp"

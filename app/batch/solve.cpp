@@ -11,9 +11,10 @@
 
 #include "app/batch/cases.hpp"
 #include "app/batch/output.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/fields/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/labs.hpp"
 
 namespace tendril::app {

@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "app/batch/output.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/system/file.hpp"
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "app/document/argument_list.hpp"
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 

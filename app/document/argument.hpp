@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

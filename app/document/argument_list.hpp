@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

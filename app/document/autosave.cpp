@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/environment.hpp"
 
 namespace tendril::app {

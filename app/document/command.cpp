@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

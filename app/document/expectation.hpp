@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -115,13 +115,6 @@ std::string changed_files_text(const Json& part) {
     if (changed.empty()) return {};
     return comma_list(changed) + (changed.size() > 1 ? " have" : " has") +
            " changed since the scene was saved";
-}
-
-std::vector<std::string> names_of_uri(const std::string& uri) {
-    const std::string decoded = percent_decoded(uri);
-    std::string slashes = decoded;
-    std::ranges::replace(slashes, '\\', '/');
-    return {decoded, uri, slashes};
 }
 
 }  // namespace tendril::app

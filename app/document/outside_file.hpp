@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json_place.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 
@@ -51,8 +51,5 @@ auto read_outside_file(const JsonPlace& place, const auto& read) {
 void find_moved_files(Json& part, const std::filesystem::path& scene_folder);
 /// Names the part's changed files: "w.bvh has changed since the scene was saved". Empty if none has.
 std::string changed_files_text(const Json& part);
-
-/// The file names that a glTF URI may mean, the likeliest first: decoded ("%20"), as written, with slashes.
-std::vector<std::string> names_of_uri(const std::string& uri);
 
 }  // namespace tendril::app

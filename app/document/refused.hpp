@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 

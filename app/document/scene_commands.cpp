@@ -1,11 +1,11 @@
 // Scene commands: new, open, save, recover and quit.
 #include <algorithm>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

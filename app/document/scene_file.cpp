@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/outside_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;

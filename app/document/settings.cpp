@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

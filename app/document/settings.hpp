@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

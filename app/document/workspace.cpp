@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 

@@ -17,11 +17,11 @@
 #include "app/document/camera_pose.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
-#include "app/document/json.hpp"
-#include "app/document/outputs.hpp"
 #include "app/document/rewind.hpp"
 #include "app/document/runtime.hpp"
 #include "app/document/settings.hpp"
+#include "app/io/json.hpp"
+#include "app/io/outputs.hpp"
 
 namespace tendril::app {
 

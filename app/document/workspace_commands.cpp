@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/runtime.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

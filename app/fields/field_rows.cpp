@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/row_search.hpp"
 

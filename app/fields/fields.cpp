@@ -6,9 +6,9 @@
 #include <limits>
 #include <set>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

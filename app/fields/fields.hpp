@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/document/argument.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

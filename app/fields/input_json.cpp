@@ -1,11 +1,11 @@
 // Inputs, items and values of rigs as JSON.
 #include "app/fields/input_json.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <tendril/rig/input.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
-#include "app/document/json_place.hpp"
+#include "app/io/json.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 

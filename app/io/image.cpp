@@ -1,16 +1,13 @@
 #include "app/io/image.hpp"
 
-#include <cerrno>
 #include <climits>
 #include <cstddef>
-#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "app/document/atomic_file.hpp"
-#include "app/system/file.hpp"
-#include "app/window/gl.hpp"
+#include "app/io/json.hpp"
+#include "app/system/atomic_file.hpp"
 
 // Static, since some systems' Dear ImGui includes a whole stb library with the same names.
 #define STB_IMAGE_STATIC
@@ -33,24 +30,6 @@ std::size_t byte_count(glm::ivec2 size) {
 }
 
 }  // namespace
-
-Image read_framebuffer(unsigned framebuffer, glm::ivec2 size) {
-    if (size.x < 1 || size.y < 1) throw std::runtime_error("a framebuffer without pixels can't be read");
-    std::vector<std::uint8_t> upside_down(byte_count(size));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
-
-    Image image{size, std::vector<std::uint8_t>(upside_down.size())};
-    const std::size_t row = byte_count({size.x, 1});
-    for (std::size_t y = 0; y < static_cast<std::size_t>(size.y); ++y) {
-        const std::uint8_t* const from =
-            upside_down.data() + (static_cast<std::size_t>(size.y) - 1 - y) * row;
-        std::uint8_t* const to = image.rgba.data() + y * row;
-        for (std::size_t x = 0; x < row; ++x) to[x] = x % channels == 3 ? std::uint8_t{255} : from[x];
-    }
-    return image;
-}
 
 std::string encode_png(const Image& image) {
     const bool complete = image.size.x > 0 && image.size.y > 0 && image.rgba.size() == byte_count(image.size);
@@ -90,23 +69,12 @@ void write_png(const std::filesystem::path& path, const Image& image) {
 }
 
 Image read_png(const std::filesystem::path& path) {
-    Image image;
-    int found = 0;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), &std::fclose);
-    if (!file)
-        throw std::runtime_error("cannot read " + path.string() + ": " +
-                                 std::generic_category().message(errno));
-    stbi_uc* const pixels = stbi_load_from_file(file.get(), &image.size.x, &image.size.y, &found, channels);
-    if (pixels == nullptr)
-        throw std::runtime_error("cannot read " + path.string() + ": " + stbi_failure_reason());
+    const std::string png = read_text_file(path);
     try {
-        image.rgba.assign(pixels, pixels + byte_count(image.size));
-    } catch (...) {
-        stbi_image_free(pixels);
-        throw;
+        return decode_png(png);
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
     }
-    stbi_image_free(pixels);
-    return image;
 }
 
 }  // namespace tendril::app

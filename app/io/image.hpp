@@ -16,9 +16,6 @@ struct Image {
     std::vector<std::uint8_t> rgba;
 };
 
-/// Reads the pixels of a framebuffer of the current context; alpha is set to opaque.
-Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
-
 /// Throws std::runtime_error naming the path and the reason. Writing is atomic.
 void write_png(const std::filesystem::path& path, const Image& image);
 Image read_png(const std::filesystem::path& path);

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "app/document/json.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json.hpp"
+#include "app/io/text.hpp"
 #include "app/io/trace/raw.hpp"
 
 namespace tendril::app {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
-#include "app/document/atomic_file.hpp"
 #include "app/io/image.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/child_process.hpp"
 
 namespace tendril::app {

@@ -3,10 +3,10 @@
 #include <stdexcept>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/view/assets.hpp"
 
 namespace tendril::app {

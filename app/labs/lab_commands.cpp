@@ -8,7 +8,7 @@
 
 #include "app/document/argument.hpp"
 #include "app/document/command.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/film.hpp"
 #include "app/labs/labs.hpp"
 

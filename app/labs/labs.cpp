@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/names.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/names.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

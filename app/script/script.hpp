@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/document/expectation.hpp"
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fonts.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/shell/shell.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/tooltip.hpp"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/shell/ui.hpp"
 #include "app/view/camera.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"

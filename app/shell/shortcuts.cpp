@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/document/command.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/labs.hpp"
 
 namespace tendril::app {

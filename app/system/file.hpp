@@ -1,5 +1,4 @@
-// Files of the operating system: locking, syncing, renaming, identity. document/atomic_file.hpp uses these to
-// save files.
+// Files of the operating system: locking, syncing, renaming, identity. atomic_file.hpp uses these to save files.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/skinned_mesh.hpp"
+#include "app/io/character/skinned_mesh.hpp"
 
 namespace tendril::app {
 
@@ -51,6 +51,27 @@ struct Label {
     std::string text;
     glm::vec3 colour{1.0f};
     int rank = 0;
+};
+
+struct Vertex {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit, to the front
+    glm::vec3 colour{1.0f};              ///< the front's
+    glm::vec3 back{1.0f};                ///< the back's
+};
+
+/// All solids that are not strokes, so that one call draws them. Triangles have two sides; seen from the
+/// front, their corners run counter-clockwise.
+struct Mesh {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;  ///< three to a triangle
+
+    void clear() { vertices.clear(), indices.clear(); }
+    /// The index that the next vertex will have.
+    std::uint32_t next() const { return static_cast<std::uint32_t>(vertices.size()); }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices.insert(indices.end(), {a, b, c});
+    }
 };
 
 struct DrawList {

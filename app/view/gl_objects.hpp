@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/skinned_mesh.hpp"
+#include "app/view/draw_list.hpp"
 #include "app/window/gl.hpp"
 
 namespace tendril::app {

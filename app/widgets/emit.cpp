@@ -1,6 +1,6 @@
 #include "app/widgets/emit.hpp"
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/tooltip.hpp"

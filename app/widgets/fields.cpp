@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/widgets/emit.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/tooltip.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/says.hpp"
 

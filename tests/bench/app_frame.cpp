@@ -10,7 +10,7 @@
 #include <glad/gl.h>
 
 #include "app/app.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/session.hpp"
 
 namespace tendril::app {

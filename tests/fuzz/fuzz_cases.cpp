@@ -6,7 +6,7 @@
 #include <tendril/ik/solver.hpp>
 
 #include "app/batch/cases.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/fuzz/check.hpp"
 
 using namespace tendril;

@@ -2,7 +2,7 @@
 // written as it was read, and its output is finite.
 #include <cmath>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "tendril/signal/run.hpp"
 #include "tests/fuzz/check.hpp"

@@ -1,6 +1,6 @@
 // Our parser accepts the same texts as the JSON library, with the same values, unless they are nested too
 // deep; and finds a line for any path.
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/fuzz/check.hpp"
 
 using namespace tendril::app;

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/fuzz/check.hpp"

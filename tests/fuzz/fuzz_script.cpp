@@ -1,7 +1,7 @@
 // A script is refused with a std::runtime_error, or all of it can be used: its events are written as they
 // were read, its commands run or are refused, and its expectations give an answer.
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/script/recorder.hpp"
 #include "app/script/script.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/unique_names.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

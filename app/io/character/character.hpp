@@ -14,8 +14,8 @@
 #include <tendril/humanoid/skeleton.hpp>
 #include <vector>
 
-#include "app/document/names.hpp"
 #include "app/io/character/skin.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

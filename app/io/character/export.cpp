@@ -8,11 +8,11 @@
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/gltf.hpp"
+#include "app/io/text.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <tendril/humanoid/ground.hpp>
 #include <vector>
 
-#include "app/document/outputs.hpp"
 #include "app/io/character/gltf_write.hpp"
+#include "app/io/outputs.hpp"
 
 namespace tendril::app {
 

@@ -9,9 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "app/document/outside_file.hpp"
-#include "app/document/text.hpp"
 #include "app/io/character/base64.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

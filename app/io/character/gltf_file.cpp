@@ -7,9 +7,9 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
 #include "app/io/character/base64.hpp"
 #include "app/io/character/gltf_bytes.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

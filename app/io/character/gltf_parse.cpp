@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/document/text.hpp"
 #include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/tiny_gltf.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -4,13 +4,13 @@
 #include <set>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_keys.hpp"
 #include "app/io/character/gltf_skin.hpp"
 #include "app/io/character/gltf_vrm.hpp"
 #include "app/io/character/unique_names.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "app/document/text.hpp"
 #include "app/io/character/gltf_bytes.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

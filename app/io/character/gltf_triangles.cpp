@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/document/json.hpp"
 #include "app/io/character/gltf_bytes.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 namespace {

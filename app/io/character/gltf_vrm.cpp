@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

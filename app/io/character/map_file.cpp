@@ -5,8 +5,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

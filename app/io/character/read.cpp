@@ -6,12 +6,12 @@
 #include <tendril/humanoid/attach.hpp>
 #include <utility>
 
-#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/fbx/fbx.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/unique_names.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <tendril/humanoid/retarget.hpp>
 
-#include "app/document/names.hpp"
-#include "app/document/text.hpp"
+#include "app/io/names.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

@@ -19,7 +19,7 @@
 #include <tendril/humanoid/twist.hpp>
 #include <vector>
 
-#include "app/view/skinned_mesh.hpp"
+#include "app/io/character/skinned_mesh.hpp"
 
 namespace tendril::app {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

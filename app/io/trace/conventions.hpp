@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "app/document/names.hpp"
+#include "app/io/names.hpp"
 #include "app/io/trace/raw.hpp"
 
 namespace tendril::app {

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/json_scan.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/json_scan.hpp"
 #include "app/io/trace/raw.hpp"
 
 namespace tendril::app {

@@ -25,7 +25,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/io/trace/log_vectors.hpp"
 
 namespace tendril::app {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 

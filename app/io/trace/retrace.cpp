@@ -9,8 +9,8 @@
 #include <tendril/ik/incident.hpp>
 #include <utility>
 
-#include "app/document/text.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/solver_text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

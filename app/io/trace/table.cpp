@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/io/trace/log_vectors.hpp"
 
 namespace tendril::app {

@@ -3,9 +3,10 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/fields/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/draw.hpp"

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
 #include "app/labs/kit/curve.hpp"

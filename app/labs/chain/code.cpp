@@ -4,9 +4,9 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/kit/arguments.hpp"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/reach.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/io/solver_json.hpp"
+#include "app/io/solver_text.hpp"
 
 namespace tendril::app {
 namespace {

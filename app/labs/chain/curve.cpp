@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/panel.hpp"

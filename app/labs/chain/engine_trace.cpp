@@ -13,10 +13,10 @@
 #include <string>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/solver_text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

@@ -11,7 +11,7 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/draw.hpp"

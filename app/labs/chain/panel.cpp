@@ -11,8 +11,8 @@
 #include <string_view>
 #include <tendril/ik/options.hpp>
 
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"

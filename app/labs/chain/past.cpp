@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "app/document/argument.hpp"
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/flips.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

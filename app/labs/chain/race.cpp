@@ -12,8 +12,8 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
-#include "app/document/text.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/solver_text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

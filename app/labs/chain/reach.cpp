@@ -11,7 +11,8 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
-#include "app/io/solver_json.hpp"
+#include "app/fields/solver_json.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_part.hpp"
 
 namespace tendril::app {

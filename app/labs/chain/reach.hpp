@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/json.hpp"
 #include "app/fields/fields.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/json.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/kit/library_json.hpp"
 
 namespace tendril::app {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/commands.hpp"
 
 template <>

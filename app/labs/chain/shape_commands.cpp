@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "app/document/text.hpp"
 #include "app/io/samples.hpp"
+#include "app/io/text.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"

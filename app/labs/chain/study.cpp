@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <tendril/ik/solver.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/kit/arguments.hpp"
 

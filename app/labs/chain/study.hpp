@@ -16,7 +16,7 @@
 #include <tendril/ik/report.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 #include "app/labs/chain/reach.hpp"
 
 namespace tendril::app {

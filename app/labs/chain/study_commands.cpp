@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/text.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/io/solver_text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/commands.hpp"

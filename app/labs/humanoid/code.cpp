@@ -6,7 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/code_text.hpp"

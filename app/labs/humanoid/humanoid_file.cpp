@@ -2,10 +2,10 @@
 // character's file again.
 #include <optional>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"

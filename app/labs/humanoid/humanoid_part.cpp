@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/part_cache.hpp"
 
 namespace tendril::app {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
 #include "app/labs/humanoid/curves/curves.hpp"

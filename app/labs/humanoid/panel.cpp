@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"

@@ -1,8 +1,8 @@
 // The Humanoid lab's part of --state.
 #include <glm/trigonometric.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/fields/solver_json.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 

@@ -11,9 +11,9 @@
 
 #include "app/document/argument.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

@@ -10,8 +10,8 @@
 #include <tendril/rig/input.hpp>
 #include <vector>
 
-#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveShape>() noexcept {

@@ -10,9 +10,9 @@
 #include <tendril/ik/curve.hpp>
 #include <vector>
 
-#include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/lab.hpp"
 
 namespace tendril::app {

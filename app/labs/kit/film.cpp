@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "app/document/argument.hpp"
-#include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/io/video_file.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 

@@ -1,7 +1,7 @@
 #include "app/labs/kit/library_json.hpp"
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

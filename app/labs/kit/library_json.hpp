@@ -9,9 +9,9 @@
 #include <tendril/signal/spring.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
+#include "app/io/json.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <tendril/magnitude.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept {

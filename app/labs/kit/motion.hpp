@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "app/document/json.hpp"
-#include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

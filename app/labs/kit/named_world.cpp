@@ -4,7 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {

@@ -12,9 +12,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/document/json.hpp"
-#include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"

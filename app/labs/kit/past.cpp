@@ -8,8 +8,8 @@
 #include <iterator>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/widgets/fields.hpp"

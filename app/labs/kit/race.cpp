@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "app/document/atomic_file.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/tooltip.hpp"
 

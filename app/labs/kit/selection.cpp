@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/document/json.hpp"
-#include "app/document/json_place.hpp"
+#include "app/io/json.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 

@@ -8,9 +8,9 @@
 #include <tendril/magnitude.hpp>
 #include <type_traits>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/view/surfaces.hpp"

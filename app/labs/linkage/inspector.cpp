@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"

@@ -6,9 +6,9 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "app/document/command.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/measures.hpp"

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

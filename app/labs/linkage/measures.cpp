@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 

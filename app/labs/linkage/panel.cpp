@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/measures.hpp"
 

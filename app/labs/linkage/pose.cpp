@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 

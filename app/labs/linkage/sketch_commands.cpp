@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 

@@ -8,7 +8,7 @@
 #include <tendril/rig/backward.hpp>
 #include <tendril/signal/run.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"

@@ -1,7 +1,7 @@
 #include "app/labs/rig/code.hpp"
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/rig/values.hpp"

@@ -8,7 +8,7 @@
 #include <tendril/rig/control.hpp>
 #include <tendril/rig/hierarchy.hpp>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/rig/rig_part.hpp"
 

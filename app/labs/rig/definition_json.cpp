@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

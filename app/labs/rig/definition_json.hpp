@@ -14,7 +14,7 @@
 #include <tendril/rig/definition.hpp>
 #include <vector>
 
-#include "app/document/json_place.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <tendril/ik/curve.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rig/controls.hpp"
 #include "app/labs/rig/panel.hpp"

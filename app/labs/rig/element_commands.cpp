@@ -1,7 +1,7 @@
 // Commands that add, set and remove elements, named curves and units.
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_commands.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/values.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 #include <tendril/rig/workspace.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"

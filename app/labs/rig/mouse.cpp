@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/controls.hpp"
 #include "app/labs/rig/draw.hpp"

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/flips.hpp"

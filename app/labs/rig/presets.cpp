@@ -1,8 +1,8 @@
 #include "app/labs/rig/presets.hpp"
 
-#include "app/document/json_complete.hpp"
-#include "app/document/names.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/view/assets.hpp"
 

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/take.hpp"

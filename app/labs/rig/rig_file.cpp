@@ -7,9 +7,9 @@
 #include <tendril/rig/control.hpp>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"

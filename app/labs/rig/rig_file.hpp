@@ -1,7 +1,7 @@
 // The Rig lab's time in a scene file: walks, the take, the clip with its backward solve, the frame rates.
 #pragma once
 
-#include "app/document/json_place.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"

@@ -5,12 +5,11 @@
 #include <tendril/rig/backward.hpp>
 
 #include "app/document/argument.hpp"
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/names.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/text.hpp"
 #include "app/io/character/export.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/names.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/code.hpp"
@@ -20,6 +19,7 @@
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"
 #include "app/labs/rig/values.hpp"
+#include "app/system/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

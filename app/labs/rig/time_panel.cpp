@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"

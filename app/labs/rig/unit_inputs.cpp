@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/rig/values.hpp"
 
 namespace tendril::app {

@@ -8,7 +8,7 @@
 #include <tendril/rig/unit.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {

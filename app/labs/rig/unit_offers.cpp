@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"

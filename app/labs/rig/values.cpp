@@ -4,7 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <tendril/rig/euler.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 namespace tendril::app {
 namespace {

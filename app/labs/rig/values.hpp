@@ -7,9 +7,9 @@
 #include <tendril/rig/rig.hpp>
 #include <vector>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 

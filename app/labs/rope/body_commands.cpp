@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/rope_lab.hpp"

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/rope_edit.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <tendril/signal/measure.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/runtime.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past.hpp"

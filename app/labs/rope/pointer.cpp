@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_time.hpp"

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rope/numbers.hpp"

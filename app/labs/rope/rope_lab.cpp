@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/runtime.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/rope/body_commands.hpp"

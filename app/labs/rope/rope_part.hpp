@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/names.hpp"
 #include "app/document/outside_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/character/character.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/selection.hpp"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/race.hpp"

@@ -6,8 +6,8 @@
 #include <tendril/rope/hair_roots.hpp>
 #include <variant>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/view/assets.hpp"

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_time.hpp"

@@ -7,11 +7,11 @@
 #include <tendril/humanoid/clip.hpp>
 #include <tendril/magnitude.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/skin.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/body_commands.hpp"
 

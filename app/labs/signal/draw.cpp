@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/panel.hpp"
 #include "app/labs/signal/signal_lab.hpp"

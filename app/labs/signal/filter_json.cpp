@@ -5,11 +5,11 @@
 #include <iterator>
 #include <string_view>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/io/samples.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/signal/signal_part.hpp"
 

@@ -13,9 +13,9 @@
 #include <tendril/signal/filter.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json.hpp"
+#include "app/io/json_place.hpp"
 
 namespace tendril::app {
 

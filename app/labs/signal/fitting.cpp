@@ -1,8 +1,8 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/signal_lab.hpp"

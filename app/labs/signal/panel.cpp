@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/filter_json.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/signal_part.hpp"

@@ -1,10 +1,10 @@
 // The Signal lab in scene files.
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/signal_lab.hpp"
 #include "app/labs/signal/signal_part.hpp"

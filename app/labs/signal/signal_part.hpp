@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/signal/fit.hpp"
 
 namespace tendril::app {

@@ -1,7 +1,8 @@
 // Limits, reports and active limits as JSON.
-#include "app/io/solver_json.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/fields/solver_json.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/solver_text.hpp"
 
 #include <cmath>
 #include <numbers>

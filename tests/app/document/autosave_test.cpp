@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/system/atomic_file.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/app/support/test_part.hpp"

@@ -8,11 +8,11 @@
 #include <random>
 #include <string>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/json_complete.hpp"
-#include "app/document/outputs.hpp"
 #include "app/document/settings.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/outputs.hpp"
+#include "app/io/text.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/system/environment.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <set>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {

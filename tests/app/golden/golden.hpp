@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/golden/compare.hpp"
 #include "tests/app/support/frame_record.hpp"
 

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/fbx/fbx.hpp"
 #include "app/io/character/gltf.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/gltf_text.hpp"
 #include "tests/app/io/sound_character.hpp"

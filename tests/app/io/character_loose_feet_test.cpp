@@ -9,7 +9,6 @@
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/lint.hpp>
 
-#include "app/document/json.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/character.hpp"
@@ -17,6 +16,7 @@
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_write.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/io/json.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/humanoid_feet_support.hpp"

@@ -11,9 +11,9 @@
 #include <tendril/humanoid/bone_map.hpp>
 #include <tendril/humanoid/clip.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/document/json.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/character.hpp"
@@ -10,6 +9,7 @@
 #include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_write.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/io/json.hpp"
 #include "tests/app/io/gltf_structure.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

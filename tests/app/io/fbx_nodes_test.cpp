@@ -10,11 +10,11 @@
 #include <random>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/fbx/animation.hpp"
 #include "app/io/character/fbx/fbx.hpp"
 #include "app/io/character/fbx/node.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"

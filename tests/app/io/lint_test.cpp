@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/character/character.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
 #include "tests/labels.hpp"

@@ -1,9 +1,9 @@
 // Bone maps as files: valid ones load unchanged, invalid ones are refused with the position of the fault.
 #include <gtest/gtest.h>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/character/map_file.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
 #include "tests/says.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/io/trace_reading.hpp"
 #include "tests/places.hpp"
 

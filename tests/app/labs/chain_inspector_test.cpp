@@ -1,7 +1,7 @@
 // The inspector's numbers match the picture: under the microscope, they belong to the step shown.
 #include <glm/common.hpp>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/labs/chain_support.hpp"

@@ -2,8 +2,8 @@
 #include <set>
 #include <sstream>
 
-#include "app/document/atomic_file.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
 

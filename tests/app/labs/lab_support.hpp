@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"

@@ -1,10 +1,10 @@
 // Labs that re-read files when a scene is opened: which faults are the scene's, and which the file's.
 #include <glm/trigonometric.hpp>
 
-#include "app/document/atomic_file.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/labs/kit/past.hpp"
+#include "app/system/atomic_file.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/full_scenes.hpp"

@@ -1,5 +1,5 @@
 #include "app/script/recorder.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -1,4 +1,4 @@
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "app/document/command.hpp"
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/program.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/input.hpp"

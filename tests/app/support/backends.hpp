@@ -8,7 +8,7 @@
 #include <exception>
 #include <glm/geometric.hpp>
 
-#include "app/io/image.hpp"
+#include "app/view/picture.hpp"
 #include "app/view/renderer.hpp"
 #include "app/window/window.hpp"
 #include "tests/labels.hpp"

@@ -2,7 +2,7 @@
 
 #include <tendril/signal/filter.hpp>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {

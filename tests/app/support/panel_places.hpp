@@ -2,7 +2,7 @@
 // section unfolded.
 #pragma once
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::test::chain_panel {
 

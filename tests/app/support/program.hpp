@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"
 #include "tests/places.hpp"

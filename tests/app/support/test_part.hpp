@@ -1,8 +1,8 @@
 // A part that belongs to no real lab, for tests of properties of every part.
 #pragma once
 
-#include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::test {
 

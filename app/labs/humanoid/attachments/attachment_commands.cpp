@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <tendril/magnitude.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"

@@ -5,11 +5,10 @@
 #include <glm/common.hpp>
 #include <stdexcept>
 
-#include "app/document/atomic_file.hpp"
-#include "app/document/text.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/draw.hpp"
@@ -18,6 +17,7 @@
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/system/atomic_file.hpp"
 #include "app/view/camera.hpp"
 
 template <>

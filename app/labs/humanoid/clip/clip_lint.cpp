@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"

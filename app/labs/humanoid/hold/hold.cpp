@@ -6,10 +6,10 @@
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
-#include "app/document/text.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_place.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"

@@ -7,8 +7,8 @@
 #include <tendril/humanoid/hold.hpp>
 #include <vector>
 
-#include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/names.hpp"
 
 namespace tendril::app {
 

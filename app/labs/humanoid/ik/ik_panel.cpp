@@ -1,8 +1,8 @@
 // The panel's rows about IK: targets, hands, gaze, ground and feet.
 #include <imgui.h>
 
-#include "app/document/json_complete.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"

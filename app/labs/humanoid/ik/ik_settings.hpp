@@ -16,10 +16,10 @@
 #include <tendril/humanoid/spring_chain.hpp>
 #include <vector>
 
-#include "app/document/names.hpp"
 #include "app/document/outside_file.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/character/gltf_skin.hpp"
+#include "app/io/names.hpp"
 #include "app/labs/humanoid/hold/hold_setting.hpp"
 #include "app/labs/lab.hpp"
 

@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"

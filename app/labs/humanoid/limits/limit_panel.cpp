@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/text.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"

@@ -6,9 +6,9 @@
 #include <tendril/humanoid/spring_chain.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/character/character.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

@@ -1,6 +1,6 @@
 #include "tests/app/labs/spring/spring_lab.hpp"
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::test {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 

@@ -1,7 +1,10 @@
-#include "app/io/picture.hpp"
+#include "app/view/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
 
 #include "app/window/offscreen_window.hpp"
 
@@ -44,6 +47,20 @@ Image matted(const Image& black, const Image& white) {
 }
 
 }  // namespace
+
+Image read_framebuffer(unsigned framebuffer, glm::ivec2 size) {
+    if (size.x < 1 || size.y < 1) throw std::runtime_error("a framebuffer without pixels can't be read");
+    const auto rows = static_cast<std::size_t>(size.y), row = 4 * static_cast<std::size_t>(size.x);
+    Image image{size, std::vector<std::uint8_t>(rows * row)};
+    std::uint8_t* const pixels = image.rgba.data();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    for (std::size_t y = 0; y < rows / 2; ++y)  // GL's rows are from the bottom
+        std::swap_ranges(pixels + y * row, pixels + (y + 1) * row, pixels + (rows - 1 - y) * row);
+    for (std::size_t alpha = 3; alpha < rows * row; alpha += 4) pixels[alpha] = 255;
+    return image;
+}
 
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
                    const Palette& palette, Background background, const DrawOver& over) {

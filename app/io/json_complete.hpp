@@ -4,4 +4,4 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"

@@ -1,4 +1,4 @@
-#include "app/document/atomic_file.hpp"
+#include "app/system/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>

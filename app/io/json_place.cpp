@@ -1,9 +1,9 @@
-#include "app/document/json_place.hpp"
+#include "app/io/json_place.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 
 namespace tendril::app {
 

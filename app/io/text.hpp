@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tendril::app {
 
@@ -24,6 +25,8 @@ void complain(std::string_view what);
 
 /// Decodes %20 and the like in a URI; an invalid sequence stays.
 std::string percent_decoded(std::string_view uri);
+/// The file names that a glTF URI may mean, the likeliest first: decoded ("%20"), as written, with slashes.
+std::vector<std::string> names_of_uri(const std::string& uri);
 
 /// ASCII letters only: std::tolower depends on the locale.
 inline std::string lower_case(std::string_view text) {

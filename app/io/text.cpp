@@ -1,4 +1,4 @@
-#include "app/document/text.hpp"
+#include "app/io/text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -102,6 +102,13 @@ std::string percent_decoded(std::string_view uri) {
         if (coded) i += 2;
     }
     return result;
+}
+
+std::vector<std::string> names_of_uri(const std::string& uri) {
+    const std::string decoded = percent_decoded(uri);
+    std::string slashes = decoded;
+    std::ranges::replace(slashes, '\\', '/');
+    return {decoded, uri, slashes};
 }
 
 void complain(std::string_view what) {

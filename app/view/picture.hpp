@@ -1,4 +1,4 @@
-// Draws the view as a picture of any size, with or without the background.
+// Draws the view as a picture of any size, with or without the background; reads what was drawn.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,9 @@
 #include "app/view/renderer.hpp"
 
 namespace tendril::app {
+
+/// Reads the pixels of a framebuffer of the current context; alpha is set to opaque.
+Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
 
 /// Draws a lab's panes in the colours of a palette.
 using DrawScene = std::function<std::vector<Pane>(const Palette&)>;

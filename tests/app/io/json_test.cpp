@@ -8,8 +8,8 @@
 #include <random>
 #include <thread>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_scan.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_scan.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"

@@ -1,4 +1,4 @@
-#include "app/view/skinned_mesh.hpp"
+#include "app/io/character/skinned_mesh.hpp"
 
 #include <glm/geometric.hpp>
 

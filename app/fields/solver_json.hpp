@@ -1,18 +1,16 @@
-// Input and output of solvers, as JSON in files, commands and --state, and as text: angles in degrees, kinds
-// by name.
+// Input and output of solvers, as JSON in files, commands and --state: angles in degrees, kinds by name.
 //
 //   {"kind": "hinge", "axis": [0, 0, 1], "min_deg": 0, "max_deg": 145}
 //   {"kind": "ball_and_socket", "axis": [0, 0, 1], "up_deg": 90, "down_deg": 40, "left_deg": 60,
 //    "right_deg": 60, "twist_min_deg": -45, "twist_max_deg": 45, "stiffness": 0.5}
 #pragma once
 
-#include <span>
 #include <string>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
 #include <tendril/ik/report.hpp>
 
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 namespace tendril::app {
 
@@ -31,25 +29,5 @@ ik::Limit limit_from_json(const Json& json, const std::string& where);
 /// {"solver", "status", "iterations", "residual", "ran"}; residual is null if it is not finite, or if the
 /// input was refused. "ran" is ran_text().
 Json report_json(ik::Method method, const ik::Report& report);
-
-/// Throws std::runtime_error that begins with `where` and lists the names.
-ik::Method method_from_name(const std::string& name, const std::string& where);
-/// Indexed by ik::Method.
-std::span<const char* const> solver_names();
-/// "fabrik, fabrik_plain, ccd, ..."
-std::string method_names();
-
-// Solver names and results as text, the same everywhere: panel, microscope, race, `tendril solve`.
-
-/// "FABRIK, accelerated"
-const char* solver_title(ik::Method method);
-
-/// How a solve ended: "converged", "out of reach", "did not converge" within its iterations.
-const char* outcome_name(ik::Status status);
-
-/// The solvers that ran in a solve: "FABRIK, accelerated + least squares, 3 restarts", or "FABRIK,
-/// accelerated, 1 perturbation" for a chain that had stalled or was collinear. Methods keep their names with
-/// limits, although FABRIK then omits its accelerated step and two bones are followed by least-squares steps.
-std::string ran_text(ik::Method method, const ik::Report& report);
 
 }  // namespace tendril::app

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_scan.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/io/json_scan.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/document/json.hpp"
+#include "app/io/json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/io/json_complete.hpp"
 #include "app/system/file.hpp"
 
 namespace tendril::app {

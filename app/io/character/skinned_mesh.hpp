@@ -1,5 +1,5 @@
-// Triangles as values without GL: skins, which follow joints, and the mesh of all other solids. A skin is
-// built once, shared, and drawn each frame with the joints' matrices (app/view/renderer_skin.hpp).
+// Skins as values: triangles that follow joints. One is built once, shared, and drawn each frame with the
+// joints' matrices (app/view/renderer_skin.hpp).
 //
 // Linear blend skinning (N. Magnenat-Thalmann, R. Laperriere, D. Thalmann, "Joint-dependent local
 // deformations for hand animation and object grasping", Graphics Interface 1988): a vertex p moves to the sum
@@ -77,30 +77,5 @@ void apply_morphs(const SkinnedMesh& mesh, std::span<const float> weights, std::
                   std::vector<glm::vec3>& normals);
 /// The position of a vertex, as the shader computes it, for tests and picking.
 glm::vec3 skinned(const SkinDraw& draw, std::size_t corner);
-
-// Triangles to draw, free of GL: all solids that are not strokes. All surfaces of a frame are appended to
-// one mesh, so that one call draws them.
-//
-// Triangles are two-sided. Seen from the front, their corners run counter-clockwise; normals point to the
-// front.
-
-struct Vertex {
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit
-    glm::vec3 colour{1.0f};              ///< the front's
-    glm::vec3 back{1.0f};                ///< the back's
-};
-
-struct Mesh {
-    std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;  ///< three to a triangle
-
-    void clear() { vertices.clear(), indices.clear(); }
-    /// The index that the next vertex will have.
-    std::uint32_t next() const { return static_cast<std::uint32_t>(vertices.size()); }
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        indices.insert(indices.end(), {a, b, c});
-    }
-};
 
 }  // namespace tendril::app
