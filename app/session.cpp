@@ -87,21 +87,6 @@ bool open_given(App& app, const std::string& file) {
     return true;
 }
 
-/// False if it lacks what it could not read.
-bool open_scene(App& app, const SessionOptions& options) {
-    const bool whole = options.scene.empty() || open_given(app, options.scene);
-    if (!options.lab.empty()) {
-        if (app.labs().find(options.lab) == nullptr) {
-            throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
-        }
-        app.workspace().open_lab(options.lab);
-        app.workspace().cameras.clear();  // a recording only stores the open lab's camera
-    }
-    if (opens_alive(options)) open_alive(app);
-    app.settle();
-    return whole;
-}
-
 /// The start is the first line of its recording.
 void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
     try {
@@ -190,6 +175,20 @@ bool is_chosen(const Lab& lab, const Settings& settings, const std::string& comm
 }
 
 }  // namespace
+
+bool open_scene(App& app, const SessionOptions& options) {
+    const bool whole = options.scene.empty() || open_given(app, options.scene);
+    if (!options.lab.empty()) {
+        if (app.labs().find(options.lab) == nullptr) {
+            throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
+        }
+        app.workspace().open_lab(options.lab);
+        app.workspace().cameras.clear();  // a recording only stores the open lab's camera
+    }
+    if (opens_alive(options)) open_alive(app);
+    app.settle();
+    return whole;
+}
 
 int run_session(const SessionOptions& options) {
     try {

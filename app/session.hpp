@@ -48,6 +48,9 @@ int run_command_line(const std::vector<std::string>& words);
 
 // The view that a window opens with: a moving scene, and the cards of things to try.
 
+/// Opens the session's scene and lab, or the view below. False if the scene lacks what could not be read; throws
+/// std::runtime_error if it cannot be opened.
+bool open_scene(App& app, const SessionOptions& options);
 /// Whether the session has a window and was given no scene, lab or script.
 bool opens_alive(const SessionOptions& options);
 /// Sets up every lab's opening as a new scene: nothing to undo, nothing to save. The openings move by

@@ -1,4 +1,3 @@
-#version 330 core
 // A soft vertical gradient. Eight bits a channel can't hold one this soft without bands, so each pixel is moved by less
 // than one step, in a fixed pattern: interleaved gradient noise (Jimenez, 2014).
 

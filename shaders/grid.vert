@@ -1,4 +1,3 @@
-#version 330 core
 // A large square of ground around what the camera looks at.
 
 uniform mat4 to_clip;

@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of a triangle, which has two sides.
 
 in vec3 facing;

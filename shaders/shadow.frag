@@ -1,4 +1,3 @@
-#version 330 core
 // A soft contact shadow: what part of the sky the stroke hides from this point of the ground, roughly.
 
 in vec2 at;

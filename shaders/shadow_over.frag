@@ -1,4 +1,3 @@
-#version 330 core
 // Lays the picture of all shadows over the ground: blending takes the alpha as what to darken by.
 
 in vec2 at;

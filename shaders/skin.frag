@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of a skin. Seen through, it is clearest where it faces the eye, and its outline stays.
 
 in vec3 facing;

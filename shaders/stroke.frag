@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of one stroke: how much of it is covered, which way the surface there faces, how deep it lies.
 
 in vec2 at;

@@ -1,4 +1,3 @@
-#version 330 core
 // Spans as few pixels as will hold one stroke's outline; what lies inside is the fragment shader's business. Whatever is
 // the same all over a stroke is worked out here, once.
 //

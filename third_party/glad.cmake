@@ -1,5 +1,10 @@
 # glad 2 writes the loader for GL 3.3 core when the build is configured; --reproducible takes the
 # specification that it carries, so no network is needed.
+if(EMSCRIPTEN)  # the browser has GL's entry points
+    add_library(tendril_glad INTERFACE)
+    target_include_directories(tendril_glad SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/app/web/include)
+    return()
+endif()
 find_program(TENDRIL_GLAD glad)
 mark_as_advanced(TENDRIL_GLAD)
 tendril_require(TENDRIL_GLAD "the generator glad 2" python3-glad)

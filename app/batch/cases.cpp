@@ -9,6 +9,7 @@
 #include "app/document/json_place.hpp"
 #include "app/document/json_scan.hpp"
 #include "app/document/refused.hpp"
+#include "app/document/text.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/kit/library_json.hpp"
@@ -178,7 +179,7 @@ void with_path(const JsonPlace& place, auto require) {
 
 double argument_number(std::string_view text, const std::string& option) {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = read_double(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
         throw std::runtime_error(option + ": expected a number, found \"" + std::string(text) + "\"");
     return value;

@@ -1,6 +1,7 @@
 // Text to store and display: made safe, whatever its source; and numbers with their units.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ void complain(std::string_view what);
 
 /// Decodes %20 and the like in a URI; an invalid sequence stays.
 std::string percent_decoded(std::string_view uri);
+
+/// std::from_chars, which LLVM's library has for numbers with a point only since version 20.
+std::from_chars_result read_double(const char* first, const char* last, double& value,
+                                   std::chars_format format = std::chars_format::general);
 
 /// ASCII letters only: std::tolower depends on the locale.
 inline std::string lower_case(std::string_view text) {
