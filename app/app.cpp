@@ -359,6 +359,8 @@ void App::update_window() {
         window_.set_clipboard(*copied);
         copied.reset();
     }
+    if (workspace_.ui.file_dialog == UiState::FileDialog::Open && window_.choose_file())
+        workspace_.ui.file_dialog = UiState::FileDialog::None;
     window_.set_cursor(wanted_cursor(ui_, pointer_));
     std::string title = "Tendril";
     if (!workspace_.path.empty()) title = workspace_.path.filename().string() + " - " + title;

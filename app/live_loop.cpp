@@ -22,8 +22,10 @@ bool is_move(const Event& event) {
     return std::holds_alternative<MouseMove>(event);
 }
 
+}  // namespace
+
 /// While it exists, exit() keeps unsaved work: Xlib calls exit() when the display is lost.
-class KeptAtExit {
+class LiveLoop::KeptAtExit {
   public:
     KeptAtExit(Autosave& autosave, Workspace& workspace) {
         static const int registered = std::atexit([] {
@@ -40,8 +42,6 @@ class KeptAtExit {
     static inline Autosave* autosave_ = nullptr;
     static inline Workspace* workspace_ = nullptr;
 };
-
-}  // namespace
 
 LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
     : app_(app), window_(window), options_(options) {
@@ -68,26 +68,39 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
         app_.workspace().ui.recoverable.push_back({file, Autosave::title(file)});
 }
 
+LiveLoop::~LiveLoop() = default;
+
 void LiveLoop::run(Player& player, std::optional<int> frames) {
-    using Time = std::chrono::steady_clock;
-    std::optional<KeptAtExit> kept;
-    if (autosave_) kept.emplace(*autosave_, app_.workspace());
-    app_.workspace().clock.measured = true;
-    auto last = Time::now();
-    std::vector<Event> events;
-    while (!options_.ending && !app_.quit() && (!frames || ticks_ < *frames)) {
-        events.clear();
-        // With a frame count, time must pass even if nothing moves.
-        window_.poll(events, frames ? 0.0 : patience(player));
-        const auto now = Time::now();
-        turn(events, std::chrono::duration<double>(now - last).count(), player);
-        if (frames && ticks_ < *frames && credit_ >= tick_seconds) tick(player);
-        last = now;
-        save_settings_and_autosave();
+    begin();
+    while (pass(player, frames)) {
     }
+    end();
+}
+
+void LiveLoop::begin() {
+    if (autosave_) kept_at_exit_ = std::make_unique<KeptAtExit>(*autosave_, app_.workspace());
+    app_.workspace().clock.measured = true;
+    last_pass_ = std::chrono::steady_clock::now();
+}
+
+bool LiveLoop::pass(Player& player, std::optional<int> frames) {
+    if (options_.ending || app_.quit() || (frames && ticks_ >= *frames)) return false;
+    std::vector<Event> events;
+    // With a frame count, time must pass even if nothing moves.
+    window_.poll(events, frames ? 0.0 : patience(player));
+    const auto now = std::chrono::steady_clock::now();
+    turn(std::move(events), std::chrono::duration<double>(now - last_pass_).count(), player);
+    if (frames && ticks_ < *frames && credit_ >= tick_seconds) tick(player);
+    last_pass_ = now;
+    save_settings_and_autosave();
+    return true;
+}
+
+void LiveLoop::end() {
     // Keep unsaved work if the program was ended from outside; a user who quits was already asked.
     const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
     if (autosave_) autosave_->end(app_.workspace(), keeps);
+    kept_at_exit_.reset();
 }
 
 double LiveLoop::patience(const Player& player) const {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 
 #include "app/app.hpp"
@@ -17,9 +19,15 @@ class LiveLoop {
         const std::atomic<bool>& ending;
     };
     LiveLoop(App& app, Window& window, const Options& options);
+    ~LiveLoop();
 
     /// Runs until the user quits, the script fails or `frames` ticks have passed.
     void run(Player& player, std::optional<int> frames);
+    /// run() in parts, for a system that calls the program for each frame: begin(), pass() while it returns
+    /// true, end().
+    void begin();
+    bool pass(Player& player, std::optional<int> frames);
+    void end();
     /// Pictures drawn so far; an idle window draws none.
     int frames_drawn() const { return frames_drawn_; }
 
@@ -37,6 +45,8 @@ class LiveLoop {
     void save_settings_and_autosave();
     void note_pace(double elapsed, double dropped);
 
+    class KeptAtExit;
+
     App& app_;
     Window& window_;
     Options options_;
@@ -44,8 +54,10 @@ class LiveLoop {
     double credit_ = 0.0;  ///< seconds that have passed but were not yet ticked
     int ticks_ = 0;
     int frames_drawn_ = 0;
+    std::chrono::steady_clock::time_point last_pass_{};
     bool ctrl_ = false;
     std::optional<Autosave> autosave_;
+    std::unique_ptr<KeptAtExit> kept_at_exit_;
     Settings kept_;
 };
 

@@ -88,21 +88,6 @@ bool open_given(App& app, const std::string& file) {
     return true;
 }
 
-/// False if part of it could not be read.
-bool open_scene(App& app, const SessionOptions& options) {
-    const bool whole = options.scene.empty() || open_given(app, options.scene);
-    if (!options.lab.empty()) {
-        if (app.labs().find(options.lab) == nullptr) {
-            throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
-        }
-        app.workspace().open_lab(options.lab);
-        app.workspace().cameras.clear();  // a recording only stores the open lab's camera
-    }
-    if (opens_alive(options)) open_alive(app);
-    app.settle();
-    return whole;
-}
-
 /// The recording's first line holds the start.
 void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
     try {
@@ -191,6 +176,20 @@ bool is_chosen(const Lab& lab, const Settings& settings, const std::string& comm
 }
 
 }  // namespace
+
+bool open_scene(App& app, const SessionOptions& options) {
+    const bool whole = options.scene.empty() || open_given(app, options.scene);
+    if (!options.lab.empty()) {
+        if (app.labs().find(options.lab) == nullptr) {
+            throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
+        }
+        app.workspace().open_lab(options.lab);
+        app.workspace().cameras.clear();  // a recording only stores the open lab's camera
+    }
+    if (opens_alive(options)) open_alive(app);
+    app.settle();
+    return whole;
+}
 
 int run_session(const SessionOptions& options) {
     try {

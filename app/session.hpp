@@ -48,6 +48,9 @@ int run_command_line(const std::vector<std::string>& words);
 
 // The scene that a window opens with: it moves, and has cards of things to try.
 
+/// Opens the session's scene and lab, or the scene below. False if part of it could not be read; throws
+/// std::runtime_error if it cannot be opened.
+bool open_scene(App& app, const SessionOptions& options);
 /// True if the session has a window and was given no scene, lab or script.
 bool opens_alive(const SessionOptions& options);
 /// Sets up every lab's opening as a new scene: nothing to undo, nothing to save. The openings move by

@@ -1,4 +1,3 @@
-#version 330 core
 // A soft vertical gradient. Eight bits per channel show bands in it, so each pixel is shifted by less than one step, in
 // a fixed pattern: interleaved gradient noise (Jimenez, 2014).
 

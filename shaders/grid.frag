@@ -1,4 +1,3 @@
-#version 330 core
 // Grid lines of three sizes, each ten times the one before. As the camera moves away, the finest fade out and the
 // coarsest fade in, so that it always looks like one grid. Lines are a pixel wide and anti-aliased by their distance in
 // pixels; where they would be too close they fade instead of shimmering.

@@ -1,4 +1,3 @@
-#version 330 core
 // A large square of ground around the camera's target.
 
 uniform mat4 to_clip;

@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of a two-sided triangle.
 
 in vec3 facing;

@@ -1,4 +1,3 @@
-#version 330 core
 // One corner of a triangle.
 
 layout(location = 0) in vec3 position;

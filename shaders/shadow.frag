@@ -1,4 +1,3 @@
-#version 330 core
 // A soft contact shadow: roughly the part of the sky that the stroke hides from this point of the ground.
 
 in vec2 at;

@@ -1,4 +1,3 @@
-#version 330 core
 // The patch of ground that one stroke can darken.
 
 layout(location = 0) in vec4 ends;     // on the ground: a, b

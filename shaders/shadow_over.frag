@@ -1,4 +1,3 @@
-#version 330 core
 // Blends the shadows' buffer over the ground: alpha is how much to darken it.
 
 in vec2 at;

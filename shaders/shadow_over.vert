@@ -1,4 +1,3 @@
-#version 330 core
 // The part of the viewport that has shadows.
 
 uniform vec4 part;  // of the viewport, 0 to 1: left, bottom, right, top

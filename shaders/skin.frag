@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of a skin. A transparent skin is clearest where it faces the eye; its outline stays visible.
 
 in vec3 facing;

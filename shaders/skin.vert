@@ -1,4 +1,3 @@
-#version 330 core
 // One corner of a skin's triangle: linear blend skinning by at most four joints.
 
 layout(location = 0) in vec3 position;
@@ -19,7 +18,7 @@ out vec4 own_colour;
 void main() {
     vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
     for (int i = 0; i < 4; ++i)
-        for (int row = 0; row < 3; ++row) rows[row] += weights[i] * texelFetch(matrices, 3 * joints[i] + row);
+        for (int row = 0; row < 3; ++row) rows[row] += weights[i] * texelFetch(matrices, ivec2(row, joints[i]), 0);
     vec4 p = vec4(position, 1.0);
     vec3 world = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
     vec3 turned = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));

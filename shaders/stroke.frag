@@ -1,4 +1,3 @@
-#version 330 core
 // One pixel of one stroke: its coverage, its surface's normal and its depth.
 
 in vec2 at;

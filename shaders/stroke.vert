@@ -1,4 +1,3 @@
-#version 330 core
 // Covers as few pixels as possible around one stroke's outline; the fragment shader finds its inside. Values that are
 // constant over a stroke are computed here, once.
 //

@@ -1,5 +1,10 @@
 # glad 2 generates the loader for GL 3.3 core at configure time; --reproducible uses its own copy of the specification,
-# so no network is needed.
+# so no network is needed. A browser needs no loader.
+if(EMSCRIPTEN)
+    add_library(tendril_glad INTERFACE)
+    target_include_directories(tendril_glad SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/app/web/include)
+    return()
+endif()
 find_program(TENDRIL_GLAD glad)
 mark_as_advanced(TENDRIL_GLAD)
 tendril_require(TENDRIL_GLAD "the generator glad 2" python3-glad)

@@ -38,6 +38,6 @@ else()
 endif()
 
 set_source_files_properties(${imgui_backend} PROPERTIES
-    COMPILE_DEFINITIONS IMGUI_IMPL_OPENGL_LOADER_CUSTOM COMPILE_OPTIONS "-include;glad/gl.h")
+    COMPILE_DEFINITIONS "IMGUI_IMPL_OPENGL_LOADER_CUSTOM;$<$<BOOL:${EMSCRIPTEN}>:IMGUI_IMPL_OPENGL_ES3>" COMPILE_OPTIONS "-include;glad/gl.h")
 target_compile_options(tendril_imgui PRIVATE -w)
 target_link_libraries(tendril_imgui PRIVATE tendril_glad)

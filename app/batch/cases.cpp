@@ -11,6 +11,7 @@
 #include "app/io/json_complete.hpp"
 #include "app/io/json_place.hpp"
 #include "app/io/json_scan.hpp"
+#include "app/io/text.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
@@ -178,7 +179,7 @@ void with_path(const JsonPlace& place, auto require) {
 
 double argument_number(std::string_view text, const std::string& option) {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = read_double(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
         throw std::runtime_error(option + ": expected a number, found \"" + std::string(text) + "\"");
     return value;

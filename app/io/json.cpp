@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/io/json_complete.hpp"
+#include "app/io/text.hpp"
 #include "app/system/file.hpp"
 
 namespace tendril::app {
@@ -95,7 +96,7 @@ double shortest_decimal(float value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     double shortest = 0.0;
-    std::from_chars(digits.data(), end, shortest);
+    read_double(digits.data(), end, shortest);
     // Readers round twice, to double and then to float. Keep all digits if that would miss the float.
     return static_cast<float>(shortest) == value ? shortest : static_cast<double>(value);
 }

@@ -44,7 +44,7 @@ std::string_view unquoted(std::string_view field) {
 std::optional<double> number_in(std::string_view field) {
     if (field.starts_with('+')) field.remove_prefix(1);
     double value = 0.0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const auto [end, error] = read_double(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
     return value;
 }

@@ -1,11 +1,12 @@
 #include "app/io/text.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <string_view>
 
@@ -173,5 +174,55 @@ std::string si_text(double value, const char* unit) {
     std::snprintf(text, sizeof text, "%.*f %s%s", decimals, value, prefixes[prefix], unit);
     return text;
 }
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
+std::from_chars_result read_double(const char* first, const char* last, double& value,
+                                   std::chars_format format) {
+    const bool hex = format == std::chars_format::hex;
+    const std::string_view digits = hex ? "0123456789abcdefABCDEF" : "0123456789";
+    const char* at = first;
+    const auto take_digits = [&] {
+        const char* const before = at;
+        while (at != last && digits.find(*at) != digits.npos) ++at;
+        return at - before;
+    };
+    const auto take = [&](char lower) { return at != last && (*at | 0x20) == lower ? ++at, true : false; };
+    std::string number;
+    if (at != last && *at == '-') number += *at++;
+    const char* const unsigned_start = at;
+    for (const std::string_view word : {"infinity", "inf", "nan"})
+        if (lower_case({at, std::min(last, at + word.size())}) == word) {
+            at += word.size();
+            break;
+        }
+    if (at == unsigned_start) {
+        auto count = take_digits();
+        if (at != last && *at == '.') {
+            ++at;
+            count += take_digits();
+        }
+        if (count == 0) return {first, std::errc::invalid_argument};
+        const char* const mantissa_end = at;
+        if (take(hex ? 'p' : 'e')) {
+            if (at != last && (*at == '+' || *at == '-')) ++at;
+            const char* const exponent = at;
+            while (at != last && *at >= '0' && *at <= '9') ++at;
+            if (at == exponent) at = mantissa_end;
+        }
+        if (hex) number += "0x";
+    }
+    number.append(unsigned_start, at);
+    errno = 0;
+    const double read = std::strtod(number.c_str(), nullptr);  // rounds as from_chars does
+    if (errno == ERANGE && (std::isinf(read) || read == 0.0)) return {at, std::errc::result_out_of_range};
+    value = read;
+    return {at, std::errc()};
+}
+#else
+std::from_chars_result read_double(const char* first, const char* last, double& value,
+                                   std::chars_format format) {
+    return std::from_chars(first, last, value, format);
+}
+#endif
 
 }  // namespace tendril::app

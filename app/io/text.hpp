@@ -1,6 +1,7 @@
 // Text to store and display: made safe, whatever its source; and numbers with their units.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -27,6 +28,10 @@ void complain(std::string_view what);
 std::string percent_decoded(std::string_view uri);
 /// The file names that a glTF URI may mean, the likeliest first: decoded ("%20"), as written, with slashes.
 std::vector<std::string> names_of_uri(const std::string& uri);
+
+/// std::from_chars, which LLVM's library has for numbers with a point only since version 20.
+std::from_chars_result read_double(const char* first, const char* last, double& value,
+                                   std::chars_format format = std::chars_format::general);
 
 /// ASCII letters only: std::tolower depends on the locale.
 inline std::string lower_case(std::string_view text) {

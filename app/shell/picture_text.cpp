@@ -10,6 +10,7 @@
 
 #include "app/shell/labels_view.hpp"
 #include "app/shell/ui.hpp"
+#include "app/window/gl.hpp"
 
 namespace tendril::app {
 namespace {
@@ -62,7 +63,7 @@ PictureText::PictureText(glm::ivec2 size)
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
     io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
-    ImGui_ImplOpenGL3_Init("#version 330");
+    ImGui_ImplOpenGL3_Init(shader_version);
     load_fonts(scale_, std::min(scale_, max_raster) / scale_);
 }
 

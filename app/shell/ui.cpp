@@ -9,6 +9,7 @@
 #include "app/shell/imgui_compat.hpp"
 #include "app/view/assets.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/window/gl.hpp"
 
 namespace tendril::app {
 namespace {
@@ -63,7 +64,7 @@ Ui::Ui() {
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     imgui_setup_keys();
-    if (!ImGui_ImplOpenGL3_Init("#version 330"))
+    if (!ImGui_ImplOpenGL3_Init(shader_version))
         throw std::runtime_error("Dear ImGui cannot use this GL context");
 }
 

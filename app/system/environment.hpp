@@ -9,6 +9,13 @@
 
 namespace tendril::app {
 
+/// Whether this system starts threads; a web page does not.
+#ifdef __EMSCRIPTEN__
+inline constexpr bool has_threads = false;
+#else
+inline constexpr bool has_threads = true;
+#endif
+
 int process_id();
 
 /// The words of the command line, with the program's name first, from main()'s arguments. Call once, at the

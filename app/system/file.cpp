@@ -21,6 +21,10 @@
 #include <thread>
 #endif
 
+#ifdef __EMSCRIPTEN__
+#include <emscripten/em_js.h>
+#endif
+
 namespace tendril::app {
 namespace fs = std::filesystem;
 
@@ -230,8 +234,15 @@ bool SystemFile::sync() {
     return ::fsync(descriptor(handle_)) == 0;
 }
 
+#ifdef __EMSCRIPTEN__
+EM_JS(void, offer_download, (const char* path), { tendrilDownload(UTF8ToString(path)); });
+#endif
+
 bool replace_file(const fs::path& from, const fs::path& to) {
     if (::rename(from.c_str(), to.c_str()) != 0) return false;
+#ifdef __EMSCRIPTEN__
+    offer_download(to.c_str());
+#endif
     // The rename has succeeded; a file system that cannot sync a folder is not an error.
     const fs::path folder = to.has_parent_path() ? to.parent_path() : fs::path(".");
     if (const int handle = open_handle(folder, O_RDONLY | O_DIRECTORY); handle >= 0) {

@@ -8,10 +8,12 @@
 namespace tendril::app {
 namespace {
 
-/// A shader's source with its `#include "..."` lines replaced by those files; GLSL has no #include.
+/// A shader's source with its version, and with its `#include "..."` lines replaced by those files; GLSL has
+/// no #include.
 std::string whole_source(const std::string& file) {
     constexpr std::string_view before = "\n#include \"", after = "\"\n";
-    std::string text(shader_source(file));
+    std::string text = std::string(shader_version) + '\n' + shader_precision;
+    text += shader_source(file);
     for (std::size_t at = text.find(before); at != text.npos; at = text.find(before, at)) {
         const std::size_t name = at + before.size(), end = text.find(after, name);
         if (end == text.npos) throw std::runtime_error("shader " + file + ": an #include without its end");

@@ -25,12 +25,9 @@ void reset_state() {
     glDisable(GL_CULL_FACE);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    glDisable(GL_PRIMITIVE_RESTART);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    reset_desktop_state();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
-    glDepthRange(0.0, 1.0);
     glActiveTexture(GL_TEXTURE0);
     glBindSampler(0, 0);
 }
@@ -78,7 +75,6 @@ void Renderer::draw_scene(const DrawList& list, const Camera& camera, const Pale
     glEnable(GL_SCISSOR_TEST);
     glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
     glDepthMask(GL_TRUE);
-    glClearDepth(1.0);
     glClear(GL_DEPTH_BUFFER_BIT);
     // The ground is drawn in the camera's clip space, everything else in framebuffer pixels.
     glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);

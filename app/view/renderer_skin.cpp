@@ -135,16 +135,17 @@ class SkinPass::Sent {
 };
 
 SkinPass::SkinPass() {
-    glGenBuffers(1, &matrices_);
-    glGenTextures(1, &matrices_texture_);
+    glGenTextures(1, &matrices_);
+    glBindTexture(GL_TEXTURE_2D, matrices_);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
     const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
     white_ = texture_of({1, 1}, white.data());
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 SkinPass::~SkinPass() {
-    glDeleteBuffers(1, &matrices_);
-    glDeleteTextures(1, &matrices_texture_);
+    glDeleteTextures(1, &matrices_);
     glDeleteTextures(1, &white_);
 }
 
@@ -159,14 +160,13 @@ void SkinPass::erase_expired() {
 }
 
 void SkinPass::send_matrices(const std::vector<AffineRows>& matrices) {
-    const std::size_t bytes = matrices.size() * sizeof(AffineRows);
-    glBindBuffer(GL_TEXTURE_BUFFER, matrices_);
-    matrices_capacity_ = std::max(matrices_capacity_, bytes);
-    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(matrices_capacity_), nullptr, GL_STREAM_DRAW);
-    glBufferSubData(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), matrices.data());
+    static_assert(sizeof(AffineRows) == 3 * 4 * sizeof(float));
     glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_BUFFER, matrices_texture_);
-    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, matrices_);
+    glBindTexture(GL_TEXTURE_2D, matrices_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 3, static_cast<GLsizei>(matrices.size()), 0, GL_RGBA, GL_FLOAT,
+                 matrices.data());
     glActiveTexture(GL_TEXTURE0);
 }
 

@@ -31,8 +31,7 @@ class SkinPass {
     void erase_expired();
 
     Program program_{"skin.vert", "skin.frag"};
-    GLuint matrices_ = 0, matrices_texture_ = 0, white_ = 0;
-    std::size_t matrices_capacity_ = 0;  ///< bytes
+    GLuint matrices_ = 0, white_ = 0;
     std::map<const SkinnedMesh*, std::unique_ptr<Sent>> sent_;
 };
 

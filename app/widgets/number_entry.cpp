@@ -192,7 +192,7 @@ class Reader {
             return std::numbers::pi;
         }
         double value = 0.0;
-        const auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+        const auto [end, error] = read_double(left_.data(), left_.data() + left_.size(), value);
         if (end == left_.data() || left_.starts_with("inf") || left_.starts_with("nan")) return std::nullopt;
         const std::string_view digits(left_.data(), static_cast<std::size_t>(end - left_.data()));
         const bool tiny =

@@ -4,6 +4,17 @@
 
 namespace tendril::app {
 
+#ifdef __EMSCRIPTEN__
+void reset_desktop_state() {}
+#else
+void reset_desktop_state() {
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_PRIMITIVE_RESTART);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDepthRange(0.0, 1.0);
+    glClearDepth(1.0);
+}
+
 void load_gl(GLADloadfunc load, const std::string& backend) {
     const int version = gladLoadGL(load);
     if (version == 0) throw std::runtime_error(backend + ": OpenGL could not be loaded");
@@ -13,6 +24,7 @@ void load_gl(GLADloadfunc load, const std::string& backend) {
                                  std::to_string(GLAD_VERSION_MINOR(version)));
     }
 }
+#endif
 
 void check_window_size(glm::ivec2 size) {
     constexpr int largest = 16384;

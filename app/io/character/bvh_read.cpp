@@ -59,7 +59,7 @@ class Words {
         if (word.find(',') != word.npos) fail("numbers need a decimal point, found " + shown(word));
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0.0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const auto [end, error] = read_double(word.data(), word.data() + word.size(), value);
         if (word.empty() || error != std::errc() || end != word.data() + word.size() ||
             !(std::abs(value) <= 1e9))
             fail("expected a number of at most 1e9 in magnitude, found " + shown(whole));

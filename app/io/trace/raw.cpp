@@ -125,8 +125,7 @@ std::optional<double> take_number(std::string_view& text) {
     const std::string_view number = rest;
     const auto read = [&](std::string_view digits, std::chars_format format) -> std::optional<double> {
         double value = 0.0;
-        const auto [stop, error] =
-            std::from_chars(digits.data(), digits.data() + digits.size(), value, format);
+        const auto [stop, error] = read_double(digits.data(), digits.data() + digits.size(), value, format);
         if (error != std::errc() && error != std::errc::result_out_of_range) return std::nullopt;
         rest.remove_prefix(rest.size() - digits.size() + static_cast<std::size_t>(stop - digits.data()));
         return error == std::errc() ? value : infinity;

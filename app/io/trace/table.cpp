@@ -318,7 +318,7 @@ std::unique_ptr<VectorLines> open_table(Lines& lines, RawTrace& trace) {
         if (separator == ' ' && !names.empty() && names[0].empty()) names.erase(names.begin());
         const std::vector<std::string_view> row(names.begin(), names.end());
         const auto points = static_cast<std::size_t>(
-            std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value));
+            std::ranges::count_if(point_columns(row), [](const auto& each) { return each.has_value(); }));
         if (separator != ' ' ? points < 3 : points < 6 || points + 1 < row.size()) continue;
         lines.drop(at + 1);
         auto rows = std::make_unique<TableRows>(lines, separator);

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "app/io/text.hpp"
+
 namespace tendril::app::fbx {
 namespace {
 
@@ -25,7 +27,7 @@ T raw_at(std::string_view bytes, std::size_t at) {
 double number_in(std::string_view text, double otherwise) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;
-    if (std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc()) return value;
+    if (read_double(text.data(), text.data() + text.size(), value).ec == std::errc()) return value;
     return text == "T" || text == "Y" ? 1.0 : otherwise;
 }
 std::int64_t integer_in(std::string_view text, std::int64_t otherwise) {

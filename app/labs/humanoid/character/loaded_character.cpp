@@ -7,6 +7,7 @@
 
 #include "app/io/character/character.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "app/system/environment.hpp"
 
 namespace tendril::app {
 namespace {
@@ -147,8 +148,8 @@ Loading::Change Loading::take() {
 
 bool loads_beside(const Workspace& workspace, const std::string& file) {
     std::error_code unknown;
-    return workspace.clock.measured && std::filesystem::file_size(file, unknown) >= Loading::large_file &&
-           !unknown;
+    return workspace.clock.measured && has_threads &&
+           std::filesystem::file_size(file, unknown) >= Loading::large_file && !unknown;
 }
 
 }  // namespace tendril::app

@@ -1,0 +1,274 @@
+#include "app/web/canvas_window.hpp"
+
+#include <emscripten/emscripten.h>
+#include <emscripten/html5.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "app/io/text.hpp"
+#include "app/window/gl.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr const char* canvas = "#canvas";
+const char* const whole_page = EMSCRIPTEN_EVENT_TARGET_WINDOW;
+constexpr float pixels_per_notch = 100.0f, lines_per_notch = 3.0f;  ///< of a wheel, in today's browsers
+constexpr float zoom_per_notch = 1.1f;                              ///< fingers' distance, for one notch
+
+// clang-format off
+EM_JS(void, show_cursor, (const char* name), { document.getElementById("canvas").style.cursor = UTF8ToString(name); });
+EM_JS(void, show_title, (const char* text), { document.title = UTF8ToString(text); });
+EM_JS(void, copy_text, (const char* text), {
+    if (navigator.clipboard) navigator.clipboard.writeText(UTF8ToString(text)).catch(() => {});
+});
+EM_JS(void, choose_any_file, (), { tendrilChoose(); });
+// clang-format on
+
+/// The key by the browser's name for it; a letter or digit by the layout's label. Unknown for a key without a
+/// name here.
+Key named_key(const EmscriptenKeyboardEvent& event) {
+    std::string_view name = event.key;
+    if (name == " ") return Key::Space;
+    if (name == "Control") return Key::Ctrl;
+    if (name == "Meta") return Key::Super;
+    if (name == "PageUp") return Key::PageUp;
+    if (name == "PageDown") return Key::PageDown;
+    if (name.starts_with("Arrow")) name.remove_prefix(5);
+    if (const auto key = key_from_name(name)) return *key;
+    // A symbol over a digit, or a letter of another script: by its place on a US keyboard.
+    std::string_view place = event.code;
+    for (const std::string_view kind : {"Key", "Digit", "Numpad"})
+        if (place.starts_with(kind)) place.remove_prefix(kind.size());
+    return key_from_name(place).value_or(Key::Unknown);
+}
+
+/// Whether the key is the browser's: reload, full screen, tools, tabs, and pasting, whose text comes as an
+/// event.
+bool is_for_browser(const EmscriptenKeyboardEvent& event) {
+    const std::string_view name = event.key;
+    if (name == "F5" || name == "F11" || name == "F12") return true;
+    const bool control = event.ctrlKey || event.metaKey;
+    if (!control) return false;
+    for (const char* const each : {"r", "t", "w", "n", "l", "v", "V", "R", "I", "J"})
+        if (name == each) return true;
+    return false;
+}
+
+class CanvasWindow final : public Window {
+  public:
+    CanvasWindow();
+    ~CanvasWindow() override { emscripten_webgl_destroy_context(context_); }
+    CanvasWindow(const CanvasWindow&) = delete;
+    CanvasWindow& operator=(const CanvasWindow&) = delete;
+
+    glm::ivec2 size() const override { return size_; }
+    glm::ivec2 framebuffer_size() const override { return pixels_; }
+    void poll(std::vector<Event>& events, double) override;
+    void present() override {}
+    void resize(glm::ivec2) override {}  // the page decides
+    void set_cursor(Cursor cursor) override {
+        constexpr const char* names[] = {"default", "pointer", "grabbing", "text", "col-resize"};
+        show_cursor(names[static_cast<std::size_t>(cursor)]);
+    }
+    void set_title(const std::string& title) override { show_title(title.c_str()); }
+    bool choose_file() override {
+        choose_any_file();
+        return true;
+    }
+    std::string clipboard() override { return clipboard_; }
+    void set_clipboard(const std::string& text) override {
+        clipboard_ = text;
+        copy_text(text.c_str());
+    }
+
+    void drop(std::string path) { pending_.emplace_back(Drop{{std::move(path)}}); }
+    void paste(std::string text) {
+        clipboard_ = std::move(text);
+        // The loop takes Ctrl+V as a request for the clipboard.
+        for (const bool down : {true, false}) pending_.emplace_back(KeyChange{Key::V, down});
+    }
+    static CanvasWindow* open;
+
+  private:
+    void listen();
+    void fit_page();
+    void move_to(long x, long y) { pending_.emplace_back(MouseMove{glm::vec2(x, y)}); }
+    void on_key(const EmscriptenKeyboardEvent& event, bool down);
+    void on_touch(int kind, const EmscriptenTouchEvent& event);
+
+    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context_ = 0;
+    glm::ivec2 size_{1}, pixels_{1};
+    std::vector<Event> pending_;
+    std::string clipboard_;
+    /// What the fingers do now.
+    enum class Fingers { None, One, Two };
+    Fingers fingers_ = Fingers::None;
+    float apart_ = 1.0f;  ///< of two fingers, when the last notch was sent
+};
+
+CanvasWindow* CanvasWindow::open = nullptr;
+
+CanvasWindow::CanvasWindow() {
+    EmscriptenWebGLContextAttributes wanted;
+    emscripten_webgl_init_context_attributes(&wanted);
+    wanted.majorVersion = 2;
+    wanted.antialias = false;  // the shaders do it
+    wanted.alpha = false;
+    wanted.preserveDrawingBuffer = true;  // a frame in which nothing changes is not drawn again
+    context_ = emscripten_webgl_create_context(canvas, &wanted);
+    if (context_ <= 0 || emscripten_webgl_make_context_current(context_) != EMSCRIPTEN_RESULT_SUCCESS)
+        throw std::runtime_error("this browser has no WebGL 2");
+    emscripten_webgl_enable_extension(context_, "OES_texture_float_linear");
+    fit_page();
+    listen();
+    open = this;
+}
+
+void CanvasWindow::fit_page() {
+    double width = 0.0, height = 0.0;
+    emscripten_get_element_css_size(canvas, &width, &height);
+    const double ratio = std::clamp(emscripten_get_device_pixel_ratio(), 0.5, 4.0);
+    const glm::ivec2 now(std::max(1.0, width), std::max(1.0, height));
+    const glm::ivec2 pixels(std::max(1.0, std::round(width * ratio)),
+                            std::max(1.0, std::round(height * ratio)));
+    if (now == size_ && pixels == pixels_) return;
+    size_ = now;
+    pixels_ = pixels;
+    emscripten_set_canvas_element_size(canvas, pixels.x, pixels.y);
+    pending_.emplace_back(Resize{size_});
+}
+
+void CanvasWindow::poll(std::vector<Event>& events, double) {
+    fit_page();
+    events.insert(events.end(), std::move_iterator(pending_.begin()), std::move_iterator(pending_.end()));
+    pending_.clear();
+}
+
+void CanvasWindow::listen() {
+    const auto on_button = [](int kind, const EmscriptenMouseEvent* event, void* self) -> EM_BOOL {
+        const bool down = kind == EMSCRIPTEN_EVENT_MOUSEDOWN;
+        const MouseButton button = event->button == 2   ? MouseButton::Right
+                                   : event->button == 1 ? MouseButton::Middle
+                                                        : MouseButton::Left;
+        static_cast<CanvasWindow*>(self)->pending_.emplace_back(MousePress{button, down});
+        return down ? EM_FALSE : EM_TRUE;  // a press must still give the page the keyboard
+    };
+    emscripten_set_mousedown_callback(canvas, this, EM_FALSE, on_button);
+    emscripten_set_mouseup_callback(whole_page, this, EM_FALSE, on_button);
+    emscripten_set_mousemove_callback(
+        whole_page, this, EM_FALSE, [](int, const EmscriptenMouseEvent* event, void* self) -> EM_BOOL {
+            static_cast<CanvasWindow*>(self)->move_to(event->clientX, event->clientY);
+            return EM_FALSE;
+        });
+    emscripten_set_wheel_callback(
+        canvas, this, EM_FALSE, [](int, const EmscriptenWheelEvent* event, void* self) -> EM_BOOL {
+            const float notch = event->deltaMode == DOM_DELTA_PIXEL ? pixels_per_notch : lines_per_notch;
+            static_cast<CanvasWindow*>(self)->pending_.emplace_back(MouseWheel{
+                static_cast<float>(-event->deltaY) / notch, static_cast<float>(-event->deltaX) / notch});
+            return EM_TRUE;
+        });
+    const auto on_key = [](int kind, const EmscriptenKeyboardEvent* event, void* self) -> EM_BOOL {
+        if (is_for_browser(*event)) return EM_FALSE;
+        static_cast<CanvasWindow*>(self)->on_key(*event, kind == EMSCRIPTEN_EVENT_KEYDOWN);
+        return EM_TRUE;
+    };
+    emscripten_set_keydown_callback(whole_page, this, EM_FALSE, on_key);
+    emscripten_set_keyup_callback(whole_page, this, EM_FALSE, on_key);
+    const auto on_focus = [](int kind, const EmscriptenFocusEvent*, void* self) -> EM_BOOL {
+        static_cast<CanvasWindow*>(self)->pending_.emplace_back(Focus{kind == EMSCRIPTEN_EVENT_FOCUS});
+        return EM_FALSE;
+    };
+    emscripten_set_focus_callback(whole_page, this, EM_FALSE, on_focus);
+    emscripten_set_blur_callback(whole_page, this, EM_FALSE, on_focus);
+    const auto on_touch = [](int kind, const EmscriptenTouchEvent* event, void* self) -> EM_BOOL {
+        static_cast<CanvasWindow*>(self)->on_touch(kind, *event);
+        return EM_TRUE;  // else the browser makes a mouse of it
+    };
+    emscripten_set_touchstart_callback(canvas, this, EM_FALSE, on_touch);
+    emscripten_set_touchmove_callback(canvas, this, EM_FALSE, on_touch);
+    emscripten_set_touchend_callback(canvas, this, EM_FALSE, on_touch);
+    emscripten_set_touchcancel_callback(canvas, this, EM_FALSE, on_touch);
+}
+
+void CanvasWindow::on_key(const EmscriptenKeyboardEvent& event, bool down) {
+    const Key key = named_key(event);
+    if (key != Key::Unknown && !(down && event.repeat && key >= Key::Shift))
+        pending_.emplace_back(KeyChange{key, down});
+    if (!down || event.ctrlKey || event.metaKey) return;
+    // A key that types has the text as its name; others have words, of ASCII letters.
+    const std::string_view name = event.key;
+    const bool one = !name.empty() && (name.size() == 1 || static_cast<unsigned char>(name[0]) >= 0x80);
+    if (!one) return;
+    pending_.emplace_back(TextInput{std::string(name)});
+    if (name == "?")
+        for (const bool each : {true, false}) pending_.emplace_back(KeyChange{Key::Question, each});
+}
+
+void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
+    std::vector<glm::vec2> down;
+    glm::vec2 lifted(0.0f);
+    const bool ends = kind == EMSCRIPTEN_EVENT_TOUCHEND || kind == EMSCRIPTEN_EVENT_TOUCHCANCEL;
+    for (int i = 0; i < event.numTouches; ++i) {
+        const EmscriptenTouchPoint& each = event.touches[i];
+        const glm::vec2 at(each.targetX, each.targetY);
+        if (ends && each.isChanged)
+            lifted = at;
+        else
+            down.push_back(at);
+    }
+    const Fingers now = down.empty() ? Fingers::None : down.size() == 1 ? Fingers::One : Fingers::Two;
+    const auto press = [this](MouseButton button, bool pressed) {
+        pending_.emplace_back(MousePress{button, pressed});
+    };
+    const glm::vec2 at = now == Fingers::None  ? lifted
+                         : now == Fingers::One ? down[0]
+                                               : 0.5f * (down[0] + down[1]);
+    if (now != fingers_) {
+        if (fingers_ == Fingers::One) press(MouseButton::Left, false);
+        if (fingers_ == Fingers::Two) press(MouseButton::Middle, false);
+        // After two fingers the one that is left is not a new press.
+        const bool presses = now == Fingers::Two || (now == Fingers::One && fingers_ == Fingers::None);
+        move_to(static_cast<long>(at.x), static_cast<long>(at.y));
+        if (presses) press(now == Fingers::One ? MouseButton::Left : MouseButton::Middle, true);
+        if (now == Fingers::Two) apart_ = std::max(1.0f, glm::length(down[1] - down[0]));
+        fingers_ = presses || now == Fingers::None ? now : Fingers::None;
+        return;
+    }
+    if (now == Fingers::None) return;
+    move_to(static_cast<long>(at.x), static_cast<long>(at.y));
+    if (now != Fingers::Two) return;
+    const float apart = std::max(1.0f, glm::length(down[1] - down[0]));
+    pending_.emplace_back(MouseWheel{std::log(apart / apart_) / std::log(zoom_per_notch), 0.0f});
+    apart_ = apart;
+}
+
+}  // namespace
+
+std::unique_ptr<Window> open_canvas() {
+    return std::make_unique<CanvasWindow>();
+}
+
+std::unique_ptr<Window> open_glfw_window(glm::ivec2) {
+    return open_canvas();
+}
+std::unique_ptr<Window> open_hidden_window(glm::ivec2) {
+    throw std::runtime_error("a page has no hidden window");
+}
+
+}  // namespace tendril::app
+
+/// The page has written a dropped file to `path`.
+extern "C" EMSCRIPTEN_KEEPALIVE void tendril_drop(const char* path) {
+    if (auto* const window = tendril::app::CanvasWindow::open) window->drop(path);
+}
+
+/// The user has pasted.
+extern "C" EMSCRIPTEN_KEEPALIVE void tendril_paste(const char* text) {
+    if (auto* const window = tendril::app::CanvasWindow::open) window->paste(text);
+}

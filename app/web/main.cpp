@@ -1,0 +1,107 @@
+// The program in a web page: the browser calls it for each frame.
+#include <emscripten/emscripten.h>
+
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/app.hpp"
+#include "app/io/json_complete.hpp"
+#include "app/live_loop.hpp"
+#include "app/script/recorder.hpp"
+#include "app/session.hpp"
+#include "app/system/environment.hpp"
+#include "app/web/canvas_window.hpp"
+
+namespace tendril::app {
+namespace {
+
+const std::atomic<bool> never{false};
+
+/// All that lives as long as the page.
+struct Page {
+    std::unique_ptr<Window> window = open_canvas();
+    App app{*window};
+    LiveLoop live{app, *window, {.config = true, .ending = never}};
+    Player player{Script{}};
+};
+std::unique_ptr<Page> page;
+
+// clang-format off
+EM_JS(void, show_failure, (const char* text), { tendrilFailed(UTF8ToString(text)); });
+EM_JS(void, keep_files, (), { tendrilKeepFiles(); });
+EM_JS(void, show_page, (), { tendrilReady(); });
+// clang-format on
+
+/// Ends with the reason on the page.
+void fail(const std::exception& error) {
+    emscripten_cancel_main_loop();
+    show_failure(error.what());
+}
+
+void pass() {
+    constexpr int passes_between = 300;  // frames; about 5 s
+    static int passes = 0;
+    try {
+        page->live.pass(page->player, std::nullopt);
+        if (++passes == 1) show_page();
+        if (passes % passes_between == 0) keep_files();
+    } catch (const std::exception& error) {
+        fail(error);
+    }
+}
+
+void start(const std::string& scene) {
+    page = std::make_unique<Page>();
+    SessionOptions options;
+    options.scene = scene;
+    page->app.workspace().config = config_folder();
+    offer_cards(page->app);
+    open_scene(page->app, options);
+    page->live.begin();
+    emscripten_set_main_loop(pass, 0, false);
+}
+
+}  // namespace
+}  // namespace tendril::app
+
+namespace {
+
+/// Valid until the next call.
+const char* handed_out(std::string text) {
+    static std::string kept;
+    kept = std::move(text);
+    return kept.c_str();
+}
+
+}  // namespace
+
+// For scripts of the page; texts are UTF-8.
+
+/// What --state writes, as JSON: the open lab's numbers, the handles with their pixels.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_state() {
+    return handed_out(tendril::app::page ? tendril::app::page->app.state().dump() : "null");
+}
+
+/// Runs a command as scripts do, its arguments a JSON object. Returns why it is refused, or an empty text.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_run(const char* command, const char* arguments) {
+    if (!tendril::app::page) return "the program has not started";
+    try {
+        tendril::app::page->app.run({command, tendril::app::Json::parse(arguments)});
+        return "";
+    } catch (const std::exception& refused) {
+        return handed_out(refused.what());
+    }
+}
+
+/// `arguments`: a scene file to open, or none.
+int main(int count, char** arguments) {
+    try {
+        tendril::app::start(count > 1 ? arguments[1] : "");
+    } catch (const std::exception& error) {
+        tendril::app::fail(error);
+    }
+}
