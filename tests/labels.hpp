@@ -5,7 +5,7 @@
 // slow: takes seconds, here or under the sanitizers. Starts first, and does not run under the sanitizers: others run
 // the same code there.
 // nightly: runs in .ci/nightly alone.
-// pictures, window: compare pictures; start the program in a window.
+// pictures, window: compare pictures; start the program in a window, and run beside the others.
 #pragma once
 
 #include <cstdint>
@@ -40,12 +40,12 @@ inline constexpr int sanitizer_factor = 6;
 inline constexpr int sanitizer_factor = 1;
 #endif
 
-/// A test's number of rounds: `usual`, a twentieth of them under the sanitizers, or `usual` times
-/// TENDRIL_TEST_EFFORT. At least 1.
-int rounds(int usual);
-/// Whether a round of a sweep runs: all of them, or one in ten under the sanitizers.
+/// A test's number of rounds: `all` times TENDRIL_TEST_EFFORT, which is 0.3 by day and 0.05 under the
+/// sanitizers. At least 1.
+int rounds(int all);
+/// Whether a round of a sweep runs: one in three, or one in ten under the sanitizers.
 bool is_sampled(int round);
-/// TENDRIL_TEST_EFFORT asks for more than usual.
+/// TENDRIL_TEST_EFFORT asks for more than all, as .ci/nightly does.
 bool is_thorough();
 /// TENDRIL_SEED, or else the usual one; prints it.
 std::uint64_t given_seed(std::uint64_t usual = 20'260'301u);

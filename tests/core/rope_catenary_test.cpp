@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -51,6 +52,8 @@ void check_defaults(const std::vector<Hung>& cases) {
         EXPECT_LE(stretch(world), 1e-6);
     }
 }
+
+LABEL(slow, "RopeCatenary.*");
 
 TEST(RopeCatenary, CasesOfTheSpecification) {
     check_defaults(own_cases());

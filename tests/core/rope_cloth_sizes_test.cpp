@@ -37,7 +37,7 @@ TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
         double seconds;
     } cases[] = {{5, 4.0}, {16, 4.0}, {24, 4.0}, {33, 3.0}, {48, 2.0}, {64, 2.0}, {128, 0.5}};
     for (const auto& [side, seconds] : cases) {
-        if (side > 64 && !is_thorough()) continue;
+        if (side > 48 && !is_thorough()) continue;
         World world;
         world.add_cloth("cloth", flat(side, ClothShape::Pins::Corners));
         EXPECT_LE(worst_stretch(world, seconds), 0.01) << side;
@@ -61,7 +61,7 @@ TEST(RopeClothSizes, FallsOnABallWithinOnePercent) {
         double seconds;
     } cases[] = {{5, 2.0}, {16, 2.0}, {24, 2.0}, {33, 1.5}, {48, 1.0}, {64, 1.0}, {128, 0.5}};
     for (const auto& [side, seconds] : cases) {
-        if (side > 64 && !is_thorough()) continue;
+        if (side > 48 && !is_thorough()) continue;
         World world;
         world.add_collider("ball", rope::Sphere{{0.5f, -0.4f, 0.5f}, 0.3f});
         world.add_collider("floor", rope::Plane{{0, -1, 0}, {0, 1, 0}});
@@ -84,6 +84,7 @@ TEST(RopeClothSizes, FallsAsFastAtAnyResolution) {
 /// A corner is pulled away by 1 m in 0.2 s and released: nothing tears, and it soon hangs as before.
 TEST(RopeClothSizes, ACornerThatIsPulledFastComesBack) {
     for (const int side : {12, 24, 40}) {
+        if (side > 24 && !is_thorough()) continue;
         World world = world_with({.damping = 1.0f});
         ClothShape shape = flat(side, ClothShape::Pins::Row);
         shape.down = {0, -1, 0};
@@ -167,7 +168,7 @@ TEST(RopeClothSizes, GivesTheSameBitsInEveryUnit) {
 /// Particles have any mass and position.
 TEST(RopeClothSizes, StaysFiniteFromAnyState) {
     Random random(7);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < rounds(60); ++i) {
         World world;
         const int side = 2 + static_cast<int>(random.below(12));
         world.add_cloth("cloth", flat(side, ClothShape::Pins::Corners));

@@ -1,5 +1,6 @@
 // A soft rope has its material's stiffness, independent of iterations, substep and number of segments.
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -25,6 +26,8 @@ double elongation(const Settings& settings, int segments) {
 double theory(float compliance) {
     return static_cast<double>(compliance) * gravity / 2.0;
 }
+
+LABEL(slow, "RopeElastic.*");
 
 TEST(RopeElastic, StretchesUnderItsOwnWeight) {
     for (const int segments : {1, 8, 32, 100}) {

@@ -2,6 +2,7 @@
 // them give the same bits.
 #include "jobs.hpp"
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -69,6 +70,8 @@ Advance play(rope::World& world, Workspace& workspace, int frames) {
     }
     return sum;
 }
+
+LABEL(slow, "RopeIslands.Threads*");
 
 TEST(RopeIslands, NoBodyAffectsAnother) {
     constexpr int bodies = 15;

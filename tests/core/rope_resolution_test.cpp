@@ -42,6 +42,8 @@ World hung_over(int segments, int balls, float radius) {
     return world;
 }
 
+LABEL(slow, "RopeResolution.KeepsItsLength*");
+
 TEST(RopeResolution, KeepsItsLengthOverBallsWithAnyNumberOfSegments) {
     for (const int segments : {64, 1100, 4096}) {
         World world = hung_over(segments, 4, 0.2f);

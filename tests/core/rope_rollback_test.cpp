@@ -5,6 +5,7 @@
 #include "rope_hostile.hpp"
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -36,7 +37,7 @@ void play(std::uint64_t seed, int operations) {
 }
 
 TEST(RopeRollback, ACopyEqualsTheOriginalAfterAnyEdits) {
-    for (std::uint64_t seed = 201; seed <= 204; ++seed) play(seed, 1500);
+    for (std::uint64_t seed = 201; seed <= 204; ++seed) play(seed, rounds(1500));
 }
 
 /// For long manual runs: a million operations take about twenty minutes.

@@ -144,7 +144,7 @@ LABEL(slow, "Of10000/RopeScenes.*");
 
 TEST_P(RopeScenes, NothingFreeStaysInside) {
     int failed = 0;
-    for (int i = 0; i < 2500; ++i) {
+    for (int i = 0; i < rounds(2500); ++i) {
         const auto seed = static_cast<std::uint64_t>(GetParam() * 10'000 + i);
         Found worst;
         play(seed, worst);
@@ -153,7 +153,7 @@ TEST_P(RopeScenes, NothingFreeStaysInside) {
                           << " m over what is allowed";
         }
     }
-    EXPECT_EQ(failed, 0) << "of 2500";
+    EXPECT_EQ(failed, 0) << "of " << rounds(2500);
 }
 
 /// One of 10^5 other scenes, in which a free end moved 0.89 m out of a plane and into a capsule.

@@ -1,5 +1,6 @@
 # The output of `tendril code` must compile without warnings against the installed library and give exactly the
-# program's own results. Every script in code/ creates a scene. Additional input: program, werror.
+# program's own results. Every script in code/ creates a scene. Additional input: program, werror, and only: the names
+# of the scripts to play, all if it is not given.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(folder ${work}/code_source)
 file(REMOVE_RECURSE ${folder})
@@ -29,6 +30,10 @@ foreach(script IN LISTS scripts)
     file(READ ${script} ${name}_lines)
     string(REPLACE "@golden@" ${source}/tests/app/golden ${name}_lines "${${name}_lines}")
 endforeach()
+
+if(only)
+    list(FILTER names INCLUDE REGEX "^(${only})$")
+endif()
 
 foreach(name IN LISTS names)
     set(save "{\"command\": \"scene.save\", \"path\": \"${folder}/${name}.json\"}\n")

@@ -252,7 +252,7 @@ LABEL(slow, "LintCure.ASkatingFootIsMadeToStand");
 
 TEST_F(LintFixes, OfSkatingFeetOnNearlyStraightLegsCauseNoOtherFault) {
     Random random(5);
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < test::rounds(24); ++i) {
         const double rate = i % 3 == 0 ? 30.0 : i % 3 == 1 ? 60.0 : 120.0;
         Frames frames = walk(rate);
         // Both feet slide in stances that follow each other, and the hips are so high that the legs are
@@ -287,7 +287,8 @@ TEST_F(LintFixes, OfCapturedClipsWithSkatingFeetCauseNoOtherFault) {
                 continue;
             ++skating;
             // The order of the fixes does not matter.
-            for (std::uint32_t seed = 1; seed <= (report.frames > 1000 ? 1u : 2u); ++seed) {
+            for (std::uint32_t seed = 1; seed <= (report.frames > 1000 || !test::is_thorough() ? 1u : 2u);
+                 ++seed) {
                 SCOPED_TRACE(entry.path().filename().string() + ", order " + std::to_string(seed));
                 Random order(seed);
                 int fixes = 0;

@@ -5,6 +5,7 @@
 
 #include "app/io/json_complete.hpp"
 #include "tests/app/io/trace_reading.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -77,7 +78,7 @@ TEST(Trace, WordsBeforeEveryVectorAreItsType) {
         const std::string format = each.at("format"), engine = each.value("engine", "");
         const Space& space = test::made::spaces[each.value("space", std::size_t{2})];
         for (const int layout : {0, 1, 2, 3, 4})
-            for (const unsigned seed : {0u, 1u}) {
+            for (unsigned seed = 0; seed < (test::is_thorough() ? 2u : 1u); ++seed) {
                 const bool listed = std::string_view("({[<").find(format[0]) != std::string_view::npos;
                 if (layout > 2 && !listed) continue;
                 const MadeTrace made = TraceMaker(seed).make(Plant::None);
@@ -140,7 +141,7 @@ TEST(Trace, WordsBeforeEveryVectorAreItsType) {
 TEST(Trace, LogsOfManyMakersAreRead) {
     for (const Json& each : formats_of("makers")) {
         const Maker maker(each);
-        for (unsigned seed = 0; seed < 6; ++seed) {
+        for (unsigned seed = 0; seed < 6; seed += test::is_thorough() ? 1 : 3) {
             SCOPED_TRACE(maker.name);
             const MadeTrace made = TraceMaker(seed).make(seed < 3 ? Plant::Length : Plant::None);
             const Space& space = test::made::spaces[maker.space];

@@ -280,12 +280,12 @@ class LayoutTest : public testing::TestWithParam<std::string>, protected DrivenA
     std::set<std::pair<unsigned, float>> opened_;
 };
 
-/// The first scene at every size; each other one in the smallest window with the smallest and the largest
-/// text, and at one of the other sizes in turn.
+/// The first scene at every size; each other one in the smallest window with the largest text, and at one of
+/// the other sizes in turn. At night every scene at every size.
 bool is_looked_at(std::size_t scene, glm::ivec2 size, float scale) {
     const auto window = std::ranges::find(sizes, size) - std::begin(sizes);
     const auto text = std::ranges::find(scales, scale) - std::begin(scales);
-    if (test::is_thorough() || scene == 0 || (window == 0 && text != 1)) return true;
+    if (test::is_thorough() || scene == 0 || (window == 0 && text == 2)) return true;
     const std::size_t other = static_cast<std::size_t>(window == 0 ? 0 : 1 + 3 * (window - 1) + text);
     return other == scene % 7;
 }

@@ -11,6 +11,7 @@
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -302,6 +303,8 @@ class PanelClicks : public Panels {
         }
         return was_chosen || seen() != before ? Outcome::Changed : Outcome::Nothing;
     }
+    /// By day every third widget and row is clicked, others with another TENDRIL_SEED; at night all are.
+    bool is_of_this_run(std::size_t id) const { return is_thorough() || (id + seed_) % 3 == 0; }
     /// Whether it has not yet been seen to have an effect.
     bool is_due(unsigned id, const std::string& row, const std::string& name) {
         return tried_.try_emplace({id, row}, Tried{name}).first->second.outcome != Outcome::Changed;
@@ -321,7 +324,7 @@ class PanelClicks : public Panels {
                 EXPECT_TRUE(test::has(rows[i].label, ": ")) << name << " is grey and does not say why";
                 continue;
             }
-            if (!is_due(opener.id, rows[i].label, name)) continue;
+            if (!is_of_this_run(rows[i].id) || !is_due(opener.id, rows[i].label, name)) continue;
             set_up(scene.commands, std::max(scene.ticks, 10), true);
             ASSERT_NE(frame().find(opener.id), nullptr) << name;
             note(opener.id, rows[i].label, try_row(opener, i, chooses, before));
@@ -330,10 +333,12 @@ class PanelClicks : public Panels {
     void try_scene(const Shown& scene) {
         scene_ = scene.name;
         set_up(scene.commands, std::max(scene.ticks, 10), true);
+        expect_tooltips([](const DrawnItem& item) { return in_panels(item) && !is_an_area(item); });
         std::string before = seen();
         bool fresh = true;
         for (const DrawnItem& first : std::vector<DrawnItem>(frame().items)) {
-            if (!in_panels(first) || !is_due(first.id, "", name_of(first))) continue;
+            if (!in_panels(first) || !is_of_this_run(first.id) || !is_due(first.id, "", name_of(first)))
+                continue;
             if (!std::exchange(fresh, true)) {
                 set_up(scene.commands, std::max(scene.ticks, 10), true);
                 before = seen();
@@ -389,6 +394,7 @@ class PanelClicks : public Panels {
         std::string name;
         Outcome outcome = Outcome::Nothing;
     };
+    const std::size_t seed_ = given_seed();
     bool opened_list_ = false;    ///< whether the last click opened one
     std::size_t most_rows_ = 16;  ///< of longer lists, such as a figure's nodes, the first are tried
     std::set<unsigned> looked_at_;
@@ -433,7 +439,7 @@ TEST_P(PanelClicks, UpdateTheirTextAndNothingMovesUnderTheMouse) {
             GetParam() == std::string(rig_lab) && tried.name.find("\"Forward##") != tried.name.npos;
         EXPECT_TRUE(solves_again || tried.outcome != Outcome::Nothing) << tried.name << " changes nothing";
     }
-    EXPECT_GT(changed, tried_.size() * 9 / 10) << "most are not grey";
+    EXPECT_GT(changed, tried_.size() * 4 / 5) << "most are not grey";
     RecordProperty("widgets", static_cast<int>(changed));
 }
 
