@@ -2,6 +2,7 @@
 `bind<ik::Options>(root, "Options")` in python/*.cpp, and python/stubs/*.pyi, which have what no table says. The first
 paragraph of a docstring there becomes the help of the function in Python."""
 import ast
+import keyword
 import re
 import textwrap
 
@@ -148,9 +149,14 @@ def enum_text(cpp):
     yield ""
 
 
+def name_of(row):
+    """`from_` for a row whose name Python keeps for itself."""
+    return row["name"] + "_" * keyword.iskeyword(row["name"])
+
+
 def keywords(cpp, module):
     for row in NAMES.rows(cpp):
-        yield f"{row['name']}: {type_of(row, module)} = ..."
+        yield f"{name_of(row)}: {type_of(row, module)} = ..."
 
 
 def wrapped(code, parts, end):
@@ -172,7 +178,7 @@ def struct_text(cpp):
     yield f"class {name}({base}):"
     yield from documented(sentence(said) or f"{name}.", 4)
     for row, text in member_texts(cpp):
-        yield f"    {row['name']}: {type_of(row, module)}"
+        yield f"    {name_of(row)}: {type_of(row, module)}"
         yield from documented(text, 4)
     yield from wrapped("    def __init__(", ["self", "*", *keywords(cpp, module)], ") -> None: ...")
     yield from EXTRA.get((module, name), [])

@@ -1,4 +1,5 @@
-// 100 000 chains of 8 bones solved together, for crowd.py to compare with: prints the seconds of the fastest round.
+// 100 000 chains of 8 bones solved together, for crowd.py to compare with: prints the seconds of the fastest
+// round.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -68,7 +68,7 @@ class Stubs(unittest.TestCase):
 
     def test_signatures_can_be_asked_for(self):
         self.assertEqual(list(inspect.signature(tendril.Solver.solve).parameters),
-                         ["self", "joints", "target", "method", "state", "options", "out", "fields"])
+                         ["joints", "target", "method", "state", "options", "out", "fields"])
         self.assertEqual(list(inspect.signature(tendril.signal.run).parameters), ["filters", "values", "dt"])
 
 

@@ -41,7 +41,8 @@ void expect_shape(const py::array& array, Shape shape, const char* what) {
     if (fits(array, shape)) return;
     std::string wanted;
     for (const Axis& each : shape)
-        wanted += (wanted.empty() ? "" : ", ") + (each.size < 0 ? std::string(each.letter) : std::to_string(each.size));
+        wanted += (wanted.empty() ? "" : ", ") +
+                  (each.size < 0 ? std::string(each.letter) : std::to_string(each.size));
     if (shape.size() == 1) wanted += ",";
     throw py::value_error(std::string(what) + " must have shape (" + wanted + "), got " + shape_of(array));
 }

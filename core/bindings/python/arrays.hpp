@@ -52,7 +52,9 @@ Array<Number> copy(const Array<Number>& from, const py::object& out, Shape shape
     const auto given = py::reinterpret_borrow<py::array>(out);
     expect_out(given, py::dtype::of<Number>(), shape, what);
     auto made = py::reinterpret_borrow<Array<Number>>(given);
-    if (made.data() != from.data()) std::memmove(made.mutable_data(), from.data(), sizeof(Number) * static_cast<std::size_t>(from.size()));
+    if (made.data() != from.data())
+        std::memmove(made.mutable_data(), from.data(),
+                     sizeof(Number) * static_cast<std::size_t>(from.size()));
     return made;
 }
 

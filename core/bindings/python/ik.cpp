@@ -68,7 +68,8 @@ py::tuple solve(Solver& self, const py::object& joints, const py::object& target
         report = self.solver->solve(chosen, moved, next, to, *options);
     }
     throw_if(report.accepted);
-    auto result = copy(to_array<float>(std::span<const glm::vec3>(moved), {count, 3}), out, {{count}, {3}}, "solve: out");
+    auto result = copy(to_array<float>(std::span<const glm::vec3>(moved), {count, 3}), out, {{count}, {3}},
+                       "solve: out");
     if (!state.is_none()) state.cast<State&>().value = std::move(next);
     return py::make_tuple(out.is_none() ? py::object(result) : out, to_python(report));
 }
@@ -100,7 +101,8 @@ Array<float> rest_joints(const Solver& self, const py::object& root) {
     const auto all = mutable_elements<glm::vec3>(joints);
     all[0] = root.is_none() ? glm::vec3(0.0f) : point(root, "rest_joints: root");
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-        const glm::vec3 along = self.rest_directions.empty() ? glm::vec3(1.0f, 0.0f, 0.0f) : self.rest_directions[i];
+        const glm::vec3 along =
+            self.rest_directions.empty() ? glm::vec3(1.0f, 0.0f, 0.0f) : self.rest_directions[i];
         all[i + 1] = all[i] + self.lengths[i] * along;
     }
     return joints;
@@ -113,8 +115,8 @@ Array<float> quaternions(std::span<const glm::quat> all) {
 py::tuple state_values(const State& self) {
     const ik::State& state = self.checked();
     // Their tables leave out whether they are valid.
-    return py::make_tuple(quaternions(state.rotations), state.pole.valid, to_python(state.pole), state.limits.valid,
-                          to_python(state.limits), to_choice(state.side));
+    return py::make_tuple(quaternions(state.rotations), state.pole.valid, to_python(state.pole),
+                          state.limits.valid, to_python(state.limits), to_choice(state.side));
 }
 
 State state_from(const py::tuple& values) {
@@ -130,8 +132,9 @@ State state_from(const py::tuple& values) {
     return State(std::move(state));
 }
 
-py::object two_bone(const py::object& root, const py::object& mid, const py::object& tip, const py::object& target,
-                    const py::object& lengths, const py::object& options_given, const py::kwargs& arguments) {
+py::object two_bone(const py::object& root, const py::object& mid, const py::object& tip,
+                    const py::object& target, const py::object& lengths, const py::object& options_given,
+                    const py::kwargs& arguments) {
     const auto options = python::options<ik::TwoBoneOptions>(options_given, arguments, "two_bone");
     ik::TwoBone limb;
     limb.root = point(root, "two_bone: root"), limb.mid = point(mid, "two_bone: mid");
@@ -160,14 +163,20 @@ void bind_ik(py::module_& root) {
     bind<ik::TwoBoneOptions>(root, "TwoBoneOptions");
     bind<ik::TwoBoneResult>(root, "TwoBoneResult");
 
-    root.attr("Limit").attr("of") = py::module_::import("builtins").attr("staticmethod")(py::cpp_function(
-        [](const py::object& kind) { return to_python(ik::Limit::of(choice_of<ik::JointKind>(kind, "Limit.of: kind"))); },
-        py::name("of"), py::arg("kind"), help("Limit.of")));
-    root.attr("Limit").attr("hinge") = py::module_::import("builtins").attr("staticmethod")(py::cpp_function(
-        [](const py::object& axis, float min, float max) {
-            return to_python(ik::Limit::hinge(point(axis, "Limit.hinge: axis"), min, max));
-        },
-        py::name("hinge"), py::arg("axis"), py::arg("min"), py::arg("max"), help("Limit.hinge")));
+    root.attr("Limit").attr("of") =
+        py::module_::import("builtins")
+            .attr("staticmethod")(py::cpp_function(
+                [](const py::object& kind) {
+                    return to_python(ik::Limit::of(choice_of<ik::JointKind>(kind, "Limit.of: kind")));
+                },
+                py::name("of"), py::arg("kind"), help("Limit.of")));
+    root.attr("Limit").attr("hinge") =
+        py::module_::import("builtins")
+            .attr("staticmethod")(py::cpp_function(
+                [](const py::object& axis, float min, float max) {
+                    return to_python(ik::Limit::hinge(point(axis, "Limit.hinge: axis"), min, max));
+                },
+                py::name("hinge"), py::arg("axis"), py::arg("min"), py::arg("max"), help("Limit.hinge")));
 
     py::class_<State>(root, "State", help("State"))
         .def(py::init([](std::size_t bones) {
@@ -176,9 +185,11 @@ void bind_ik(py::module_& root) {
                  return std::make_unique<State>(ik::State(bones));
              }),
              py::arg("bones"), help("State.__init__"))
-        .def_property_readonly("bones", [](const State& self) { return self.checked().bones(); }, help("State.bones"))
-        .def_property_readonly("rotations", [](const State& self) { return quaternions(self.checked().rotations); },
-                               help("State.rotations"))
+        .def_property_readonly(
+            "bones", [](const State& self) { return self.checked().bones(); }, help("State.bones"))
+        .def_property_readonly(
+            "rotations", [](const State& self) { return quaternions(self.checked().rotations); },
+            help("State.rotations"))
         .def_property_readonly(
             "local_rotations",
             [](const State& self) {
@@ -187,23 +198,30 @@ void bind_ik(py::module_& root) {
                 return quaternions(local);
             },
             help("State.local_rotations"))
-        .def_property_readonly("pole", [](const State& self) { return to_python(self.checked().pole); }, help("State.pole"))
-        .def_property_readonly("limits", [](const State& self) { return to_python(self.checked().limits); },
-                               help("State.limits"))
-        .def_property_readonly("side", [](const State& self) { return to_choice(self.checked().side); }, help("State.side"))
-        .def("reset", [](State& self) { self.checked(), self.value.reset(); }, help("State.reset"))
-        .def("copy", [](const State& self) { return State(self.checked()); }, help("State.copy"))
+        .def_property_readonly(
+            "pole", [](const State& self) { return to_python(self.checked().pole); }, help("State.pole"))
+        .def_property_readonly(
+            "limits", [](const State& self) { return to_python(self.checked().limits); },
+            help("State.limits"))
+        .def_property_readonly(
+            "side", [](const State& self) { return to_choice(self.checked().side); }, help("State.side"))
+        .def(
+            "reset", [](State& self) { self.checked(), self.value.reset(); }, help("State.reset"))
+        .def(
+            "copy", [](const State& self) { return State(self.checked()); }, help("State.copy"))
         .def("__copy__", [](const State& self) { return State(self.checked()); })
         .def("__deepcopy__", [](const State& self, const py::object&) { return State(self.checked()); })
         .def("__eq__",
              [](const State& self, const py::object& other) -> py::object {
-                 if (!py::isinstance<State>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+                 if (!py::isinstance<State>(other))
+                     return py::reinterpret_borrow<py::object>(Py_NotImplemented);
                  return py::bool_(self.checked() == other.cast<const State&>().checked());
              })
         .def("__repr__",
              [](const State& self) {
                  const ik::State& state = self.checked();
-                 return "<State of " + std::to_string(state.bones()) + (state.bones() == 1 ? " bone" : " bones") +
+                 return "<State of " + std::to_string(state.bones()) +
+                        (state.bones() == 1 ? " bone" : " bones") +
                         (state == ik::State(state.bones()) ? ", at rest>" : ">");
              })
         .def(py::pickle(&state_values, [](const py::tuple& values) {
@@ -215,8 +233,10 @@ void bind_ik(py::module_& root) {
     py::class_<Solver>(root, "Solver", help("Solver"))
         .def(py::init<py::object, py::object>(), py::arg("lengths"), py::arg("rest_directions") = py::none(),
              help("Solver.__init__"))
-        .def_property_readonly("bones", [](const Solver& self) { return self.checked().bones(); }, help("Solver.bones"))
-        .def_property_readonly("reach", [](const Solver& self) { return self.checked().reach(); }, help("Solver.reach"))
+        .def_property_readonly(
+            "bones", [](const Solver& self) { return self.checked().bones(); }, help("Solver.bones"))
+        .def_property_readonly(
+            "reach", [](const Solver& self) { return self.checked().reach(); }, help("Solver.reach"))
         .def_property_readonly(
             "lengths",
             [](const Solver& self) {
@@ -224,19 +244,22 @@ void bind_ik(py::module_& root) {
                                        {static_cast<py::ssize_t>(self.checked().bones())});
             },
             help("Solver.lengths"))
-        .def("initial_state", [](const Solver& self) { return State(self.checked().initial_state()); },
-             help("Solver.initial_state"))
+        .def(
+            "initial_state", [](const Solver& self) { return State(self.checked().initial_state()); },
+            help("Solver.initial_state"))
         .def("rest_joints", &rest_joints, py::arg("root") = py::none(), help("Solver.rest_joints"))
-        .def("solve", &solve, py::arg("joints"), py::arg("target"), py::kw_only(), py::arg("method") = "fabrik",
-             py::arg("state") = py::none(), py::arg("options") = py::none(), py::arg("out") = py::none(),
-             help("Solver.solve"))
-        .def("explain", &explain, py::arg("joints"), py::arg("target"), py::kw_only(), py::arg("state") = py::none(),
-             py::arg("options") = py::none(), help("Solver.explain"))
+        .def("solve", &solve, py::arg("joints"), py::arg("target"), py::kw_only(),
+             py::arg("method") = "fabrik", py::arg("state") = py::none(), py::arg("options") = py::none(),
+             py::arg("out") = py::none(), help("Solver.solve"))
+        .def("explain", &explain, py::arg("joints"), py::arg("target"), py::kw_only(),
+             py::arg("state") = py::none(), py::arg("options") = py::none(), help("Solver.explain"))
         .def("__repr__",
              [](const Solver& self) {
                  const std::size_t bones = self.checked().bones();
-                 return "<Solver of " + std::to_string(bones) + (bones == 1 ? " bone" : " bones") + ", reach " +
-                        py::str(py::float_(std::round(static_cast<double>(self.solver->reach()) * 1e6) / 1e6)).cast<std::string>() +
+                 return "<Solver of " + std::to_string(bones) + (bones == 1 ? " bone" : " bones") +
+                        ", reach " +
+                        py::str(py::float_(std::round(static_cast<double>(self.solver->reach()) * 1e6) / 1e6))
+                            .cast<std::string>() +
                         " m>";
              })
         .def("__reduce__", [](const py::object& self) {
@@ -246,11 +269,12 @@ void bind_ik(py::module_& root) {
                 solver.rest_directions.empty()
                     ? py::object(py::none())
                     : to_array<float>(std::span<const glm::vec3>(solver.rest_directions), {bones, 3});
-            return py::make_tuple(py::type::of(self),
-                                  py::make_tuple(to_array<float>(std::span<const float>(solver.lengths), {bones}), directions));
+            return py::make_tuple(
+                py::type::of(self),
+                py::make_tuple(to_array<float>(std::span<const float>(solver.lengths), {bones}), directions));
         });
-    root.def("two_bone", &two_bone, py::arg("root"), py::arg("mid"), py::arg("tip"), py::arg("target"), py::kw_only(),
-             py::arg("lengths"), py::arg("options") = py::none(), help("two_bone"));
+    root.def("two_bone", &two_bone, py::arg("root"), py::arg("mid"), py::arg("tip"), py::arg("target"),
+             py::kw_only(), py::arg("lengths"), py::arg("options") = py::none(), help("two_bone"));
 }
 
 }  // namespace tendril::python

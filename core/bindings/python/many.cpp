@@ -38,7 +38,8 @@ py::array statuses(const py::object& self) {
     reports.check();
     const auto count = static_cast<py::ssize_t>(reports.all.size());
     if (count == 0) return py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0});
-    py::array shown(py::dtype::of<std::uint8_t>(), {count}, {static_cast<py::ssize_t>(sizeof(ik::ManyReport))},
+    py::array shown(py::dtype::of<std::uint8_t>(), {count},
+                    {static_cast<py::ssize_t>(sizeof(ik::ManyReport))},
                     reinterpret_cast<const std::uint8_t*>(&reports.all[0].status), self);
     shown.attr("setflags")(py::arg("write") = false);
     return shown;
@@ -63,21 +64,23 @@ struct Batch : Zeroed {
         else
             throw py::type_error("Batch: chains must be given with lengths of shape (bones,)");
         if (each && count != static_cast<std::size_t>(lengths.shape(0)))
-            throw py::value_error("Batch: lengths of " + std::to_string(lengths.shape(0)) + " chains, but chains is " +
-                                  std::to_string(count));
+            throw py::value_error("Batch: lengths of " + std::to_string(lengths.shape(0)) +
+                                  " chains, but chains is " + std::to_string(count));
         const auto bones = static_cast<std::size_t>(lengths.shape(each ? 1 : 0));
         Expected<ik::Batch> made = ik::Batch::make(count, bones, threads);
         batch = std::make_unique<ik::Batch>(value_or_throw(made));
         const std::span<const float> all(lengths.data(), static_cast<std::size_t>(lengths.size()));
         if (!each) throw_if(batch->set_lengths(all));
-        for (std::size_t i = 0; each && i < count; ++i) throw_if(batch->set_lengths(i, all.subspan(i * bones, bones)));
+        for (std::size_t i = 0; each && i < count; ++i)
+            throw_if(batch->set_lengths(i, all.subspan(i * bones, bones)));
         std::vector<ik::Limit> every;
         for (const py::handle one : limits) every.push_back(*value<ik::Limit>(one, "Batch: limits"));
         limited = !every.empty();
         if (!limited) return;
         Floats rest;
         if (!rest_directions.is_none())
-            rest = array<float>(rest_directions, {{static_cast<py::ssize_t>(bones)}, {3}}, "Batch: rest_directions");
+            rest = array<float>(rest_directions, {{static_cast<py::ssize_t>(bones)}, {3}},
+                                "Batch: rest_directions");
         throw_if(batch->set_limits(every, elements<glm::vec3>(rest)));
     }
     ik::Batch& checked() const {
@@ -88,8 +91,8 @@ struct Batch : Zeroed {
     py::ssize_t bones() const { return static_cast<py::ssize_t>(checked().bones()); }
 };
 
-py::tuple solve(Batch& self, const py::object& joints, const py::object& targets, const py::object& options_given,
-                const py::object& out, const py::kwargs& arguments) {
+py::tuple solve(Batch& self, const py::object& joints, const py::object& targets,
+                const py::object& options_given, const py::object& out, const py::kwargs& arguments) {
     self.checked();
     const Busy busy(self.busy, "the Batch");
     const auto options = python::options<ik::ManyOptions>(options_given, arguments, "solve_many");
@@ -110,9 +113,9 @@ py::tuple solve(Batch& self, const py::object& joints, const py::object& targets
     return py::make_tuple(out.is_none() ? py::object(moved) : out, std::move(report));
 }
 
-py::tuple solve_many(const py::object& lengths, const py::object& joints, const py::object& targets, int threads,
-                     const py::object& limits, const py::object& rest_directions, const py::object& options,
-                     const py::object& out, const py::kwargs& arguments) {
+py::tuple solve_many(const py::object& lengths, const py::object& joints, const py::object& targets,
+                     int threads, const py::object& limits, const py::object& rest_directions,
+                     const py::object& options, const py::object& out, const py::kwargs& arguments) {
     const py::array all = numbers(joints, "solve_many: joints");
     expect_shape(all, {{-1, "chains"}, {-1, "bones + 1"}, {3}}, "solve_many: joints");
     Batch batch(lengths, py::int_(all.shape(0)), threads, limits, rest_directions);
@@ -128,16 +131,25 @@ void bind_many(py::module_& root) {
         .def_property_readonly("status", &statuses, help("ManyReport.status"))
         .def_property_readonly(
             "converged",
-            [](const py::object& self) { return statuses(self).attr("__eq__")(static_cast<int>(ik::Status::Converged)); },
+            [](const py::object& self) {
+                return statuses(self).attr("__eq__")(static_cast<int>(ik::Status::Converged));
+            },
             help("ManyReport.converged"))
-        .def_property_readonly("iterations", [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::iterations); },
-                               help("ManyReport.iterations"))
-        .def_property_readonly("residual", [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::residual); },
-                               help("ManyReport.residual"))
-        .def_property_readonly("scalar_fallback",
-                               [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::scalar_fallback); },
-                               help("ManyReport.scalar_fallback"))
-        .def_property_readonly("invalid", [](const ManyReport& self) { return self.check(), self.summary.invalid; }, help("ManyReport.invalid"))
+        .def_property_readonly(
+            "iterations",
+            [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::iterations); },
+            help("ManyReport.iterations"))
+        .def_property_readonly(
+            "residual",
+            [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::residual); },
+            help("ManyReport.residual"))
+        .def_property_readonly(
+            "scalar_fallback",
+            [](const py::object& self) { return ManyReport::view(self, &ik::ManyReport::scalar_fallback); },
+            help("ManyReport.scalar_fallback"))
+        .def_property_readonly(
+            "invalid", [](const ManyReport& self) { return self.check(), self.summary.invalid; },
+            help("ManyReport.invalid"))
         .def("__len__", [](const ManyReport& self) { return self.all.size(); })
         .def("__repr__", [](const ManyReport& self) {
             self.check();
@@ -149,8 +161,8 @@ void bind_many(py::module_& root) {
 
     py::class_<Batch>(root, "Batch", help("Batch"))
         .def(py::init<py::object, py::object, int, py::object, py::object>(), py::arg("lengths"),
-             py::arg("chains") = py::none(), py::kw_only(), py::arg("threads") = 1, py::arg("limits") = py::tuple(),
-             py::arg("rest_directions") = py::none(), help("Batch.__init__"))
+             py::arg("chains") = py::none(), py::kw_only(), py::arg("threads") = 1,
+             py::arg("limits") = py::tuple(), py::arg("rest_directions") = py::none(), help("Batch.__init__"))
         .def_property_readonly("chains", &Batch::chains, help("Batch.chains"))
         .def_property_readonly("bones", &Batch::bones, help("Batch.bones"))
         .def_property(
@@ -162,19 +174,21 @@ void bind_many(py::module_& root) {
                 return to_array<float>(std::span<const glm::quat>(all), {self.chains(), self.bones(), 4});
             },
             [](Batch& self, const py::object& given) {
-                const auto all = array<float>(given, {{self.chains()}, {self.bones()}, {4}}, "Batch: rotations");
+                const auto all =
+                    array<float>(given, {{self.chains()}, {self.bones()}, {4}}, "Batch: rotations");
                 throw_if(self.batch->set_rotations(elements<glm::quat>(all)));
             },
             help("Batch.rotations"))
-        .def("solve", &solve, py::arg("joints"), py::arg("targets"), py::kw_only(), py::arg("options") = py::none(),
-             py::arg("out") = py::none(), help("Batch.solve"))
+        .def("solve", &solve, py::arg("joints"), py::arg("targets"), py::kw_only(),
+             py::arg("options") = py::none(), py::arg("out") = py::none(), help("Batch.solve"))
         .def("__repr__", [](const Batch& self) {
-            return "<Batch of " + std::to_string(self.chains()) + " chains of " + std::to_string(self.bones()) +
-                   (self.bones() == 1 ? " bone>" : " bones>");
+            return "<Batch of " + std::to_string(self.chains()) + " chains of " +
+                   std::to_string(self.bones()) + (self.bones() == 1 ? " bone>" : " bones>");
         });
-    root.def("solve_many", &solve_many, py::arg("lengths"), py::arg("joints"), py::arg("targets"), py::kw_only(),
-             py::arg("threads") = 1, py::arg("limits") = py::tuple(), py::arg("rest_directions") = py::none(),
-             py::arg("options") = py::none(), py::arg("out") = py::none(), help("solve_many"));
+    root.def("solve_many", &solve_many, py::arg("lengths"), py::arg("joints"), py::arg("targets"),
+             py::kw_only(), py::arg("threads") = 1, py::arg("limits") = py::tuple(),
+             py::arg("rest_directions") = py::none(), py::arg("options") = py::none(),
+             py::arg("out") = py::none(), help("solve_many"));
 }
 
 }  // namespace tendril::python

@@ -30,7 +30,8 @@ std::vector<signal::Filter> filters_of(const py::object& given, const char* what
     if (py::isinstance<Struct>(given)) {
         all.push_back(filter_of(given, what));
     } else {
-        if (!py::isinstance<py::iterable>(given)) throw py::type_error(std::string(what) + " must be a filter or a list");
+        if (!py::isinstance<py::iterable>(given))
+            throw py::type_error(std::string(what) + " must be a filter or a list");
         for (const py::handle each : given) all.push_back(filter_of(each, what));
     }
     for (const signal::Filter& each : all) throw_if(signal::check(each));
@@ -46,7 +47,8 @@ std::vector<double> seconds_of(const py::object& given, py::ssize_t rows, const 
     if (all.ndim() != 0) seconds.assign(all.data(), all.data() + all.size());
     for (std::size_t i = 0; i < seconds.size(); ++i)
         if (!signal::is_step(seconds[i]))
-            throw py::value_error(std::string(what) + "[" + std::to_string(i) + "] must be finite and over 0 s, got " +
+            throw py::value_error(std::string(what) + "[" + std::to_string(i) +
+                                  "] must be finite and over 0 s, got " +
                                   py::repr(py::float_(seconds[i])).cast<std::string>());
     return seconds;
 }
@@ -94,7 +96,8 @@ struct Chain : Zeroed {
     }
 };
 
-// ---- Pickles: filters as they are; states as their kind, the numbers of their tables, and a moving average's window.
+// ---- Pickles: filters as they are; states as their kind, the numbers of their tables, and a moving
+// average's window.
 
 template <class Known>
 py::tuple numbers_of(const Known& state) {
@@ -112,7 +115,8 @@ Known state_of(const py::tuple& values) {
     Known state;
     const py::list numbers = values[0];
     if (numbers.size() != fields<Known>().size()) throw py::value_error("Chain: not a pickled Chain");
-    for (std::size_t i = 0; i < numbers.size(); ++i) fields<Known>()[i].set(&state, {numbers[i].cast<double>()});
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        fields<Known>()[i].set(&state, {numbers[i].cast<double>()});
     throw_if(check_fields("Chain", state));
     if constexpr (std::is_same_v<Known, signal::MovingAverageState>) {
         for (const py::handle each : values[1]) {
@@ -129,15 +133,20 @@ py::tuple chain_values(const Chain& self) {
     self.check();
     py::list filters, channels;
     for (const signal::Filter& each : self.filters)
-        filters.append(std::visit([](const auto& known) -> py::object {
-            using Known = std::remove_cvref_t<decltype(known)>;
-            if constexpr (std::is_same_v<Known, signal::Curve>) throw py::type_error("Chain: a curve");
-            else return to_python(known);
-        }, each));
+        filters.append(std::visit(
+            [](const auto& known) -> py::object {
+                using Known = std::remove_cvref_t<decltype(known)>;
+                if constexpr (std::is_same_v<Known, signal::Curve>)
+                    throw py::type_error("Chain: a curve");
+                else
+                    return to_python(known);
+            },
+            each));
     for (const auto& channel : self.states) {
         py::list states;
         for (const signal::FilterState& each : channel)
-            states.append(py::make_tuple(each.index(), std::visit([](const auto& known) { return numbers_of(known); }, each)));
+            states.append(py::make_tuple(
+                each.index(), std::visit([](const auto& known) { return numbers_of(known); }, each)));
         channels.append(states);
     }
     return py::make_tuple(filters, channels);
@@ -180,7 +189,8 @@ py::object measure(const py::object& filters, const py::object& values, const py
     for (std::size_t i = 0; i < seconds.size(); ++i) {
         samples.push_back({seconds[i], in.data()[i]});
         if (!signal::is_input(samples.back().input))
-            throw py::value_error("measure: values[" + std::to_string(i) + "] must be finite and at most 1e9 in magnitude");
+            throw py::value_error("measure: values[" + std::to_string(i) +
+                                  "] must be finite and at most 1e9 in magnitude");
     }
     signal::Measures measures;
     {
@@ -192,8 +202,9 @@ py::object measure(const py::object& filters, const py::object& values, const py
     };
     constexpr const char* following[] = {"unknown", "follows", "does_not_follow", "unstable"};
     return py::module_::import("tendril").attr("signal").attr("Measures")(
-        following[static_cast<std::size_t>(measures.following)], number(measures.lag), number(measures.overshoot),
-        number(measures.settling_time), number(measures.jitter), measures.rate_difference);
+        following[static_cast<std::size_t>(measures.following)], number(measures.lag),
+        number(measures.overshoot), number(measures.settling_time), number(measures.jitter),
+        measures.rate_difference);
 }
 
 }  // namespace
@@ -215,9 +226,10 @@ void bind_signal(py::module_& root) {
     bind<signal::Hysteresis>(signal, "Hysteresis");
     bind<signal::Inertialize>(signal, "Inertialize");
 
-    signal.attr("Measures") = py::module_::import("collections")
-                                  .attr("namedtuple")("Measures", "following lag overshoot settling_time jitter rate_difference",
-                                                      py::arg("module") = "tendril.signal");
+    signal.attr("Measures") =
+        py::module_::import("collections")
+            .attr("namedtuple")("Measures", "following lag overshoot settling_time jitter rate_difference",
+                                py::arg("module") = "tendril.signal");
     signal.attr("Measures").attr("__doc__") = help("signal.Measures");
     py::class_<Chain>(signal, "Chain", help("signal.Chain"))
         .def(py::init<py::object>(), py::arg("filters"), help("signal.Chain.__init__"))
@@ -225,26 +237,33 @@ void bind_signal(py::module_& root) {
         .def(
             "step",
             [](Chain& self, const py::object& value, const py::object& dt) -> py::object {
-                const py::object rows = py::module_::import("numpy").attr("asarray")(value).attr("__getitem__")(py::none());
+                const py::object rows =
+                    py::module_::import("numpy").attr("asarray")(value).attr("__getitem__")(py::none());
                 return self.run(rows, dt).attr("__getitem__")(0);
             },
             py::arg("value"), py::arg("dt"), help("signal.Chain.step"))
-        .def("reset", [](Chain& self) { self.check(), self.states.clear(); }, help("signal.Chain.reset"))
-        .def("copy", [](const Chain& self) {
-                 self.check();
-                 auto copied = std::make_unique<Chain>(self);
-                 copied->busy = false;
-                 return copied;
-             }, help("signal.Chain.copy"))
+        .def(
+            "reset", [](Chain& self) { self.check(), self.states.clear(); }, help("signal.Chain.reset"))
+        .def(
+            "copy",
+            [](const Chain& self) {
+                self.check();
+                auto copied = std::make_unique<Chain>(self);
+                copied->busy = false;
+                return copied;
+            },
+            help("signal.Chain.copy"))
         .def(py::pickle(&chain_values, &chain_from))
         .def("__repr__", [](const Chain& self) {
             self.check();
             std::string text;
-            for (const signal::Filter& each : self.filters) text += (text.empty() ? "" : ", ") + std::string(signal::kind(each));
+            for (const signal::Filter& each : self.filters)
+                text += (text.empty() ? "" : ", ") + std::string(signal::kind(each));
             return "<Chain of " + text + ">";
         });
     signal.def("run", &run, py::arg("filters"), py::arg("values"), py::arg("dt"), help("signal.run"));
-    signal.def("measure", &measure, py::arg("filters"), py::arg("values"), py::arg("dt"), help("signal.measure"));
+    signal.def("measure", &measure, py::arg("filters"), py::arg("values"), py::arg("dt"),
+               help("signal.measure"));
 }
 
 }  // namespace tendril::python

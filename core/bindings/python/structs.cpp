@@ -24,7 +24,8 @@ void throw_if(const Result& refused) {
 
 Busy::Busy(bool& flag, const char* what) : flag_(flag) {
     if (flag)
-        throw std::runtime_error(std::string(what) + " is in use by another thread; give each thread its own");
+        throw std::runtime_error(std::string(what) +
+                                 " is in use by another thread; give each thread its own");
     flag = true;
 }
 
@@ -36,7 +37,8 @@ struct Enumeration {
     py::object type;
     std::vector<std::string> choices;
 };
-// Python keeps its classes until the process ends, and so are these: nothing is released after the interpreter.
+// Python keeps its classes until the process ends, and so are these: nothing is released after the
+// interpreter.
 std::map<std::string, Enumeration, std::less<>>& enumerations() {
     static auto* const all = new std::map<std::string, Enumeration, std::less<>>;
     return *all;
@@ -101,8 +103,9 @@ py::object choice(std::string_view cpp, std::size_t index) {
 std::size_t choice(std::string_view cpp, py::handle given, const char* what) {
     const Enumeration& of = enumerations().find(cpp)->second;
     if (!py::isinstance<py::str>(given))
-        throw py::type_error(std::string(what) + " must be a " + py::cast<std::string>(of.type.attr("__name__")) +
-                             " or its name, got " + shown(given));
+        throw py::type_error(std::string(what) + " must be a " +
+                             py::cast<std::string>(of.type.attr("__name__")) + " or its name, got " +
+                             shown(given));
     const auto text = given.cast<std::string>();
     const auto found = std::find(of.choices.begin(), of.choices.end(), text);
     if (found != of.choices.end()) return static_cast<std::size_t>(found - of.choices.begin());
@@ -152,7 +155,8 @@ double number_from_python(const Field& row, py::handle given, const std::string&
     if (row.type == FieldType::Choice) return static_cast<double>(choice(row.in_code, given, place.c_str()));
     const bool integer = row.type == FieldType::Integer || row.type == FieldType::Index;
     if (PyUnicode_Check(object) || PyBytes_Check(object) || PyBool_Check(object))
-        throw py::type_error(place + " must be " + (integer ? "an integer" : "a number") + ", got " + shown(given));
+        throw py::type_error(place + " must be " + (integer ? "an integer" : "a number") + ", got " +
+                             shown(given));
     if (integer) {
         const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(object));
         if (!index) {
@@ -197,7 +201,8 @@ FieldValue value_from_python(const Field& row, py::handle given, const std::stri
     if (static_cast<std::size_t>(PySequence_Fast_GET_SIZE(sequence.ptr())) != count) refuse();
     FieldValue value{};
     for (std::size_t i = 0; i < count; ++i)
-        value[i] = number_from_python(row, PySequence_Fast_GET_ITEM(sequence.ptr(), static_cast<Py_ssize_t>(i)), place);
+        value[i] = number_from_python(
+            row, PySequence_Fast_GET_ITEM(sequence.ptr(), static_cast<Py_ssize_t>(i)), place);
     if (row.optional && std::isnan(value[0])) throw py::value_error(place + " must be numbers, got nan");
     return value;
 }
@@ -206,7 +211,8 @@ py::object value_to_python(const Field& row, const FieldValue& value) {
     if (row.size() == 1) return number_to_python(row, value[0]);
     if (row.optional && std::isnan(value[0])) return py::none();
     py::tuple all(static_cast<std::size_t>(row.size()));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = py::float_(row.exact ? value[i] : shortest(value[i]));
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = py::float_(row.exact ? value[i] : shortest(value[i]));
     return all;
 }
 
@@ -217,12 +223,19 @@ bool is_struct(const Field& row) {
 }
 /// Not in Python: types that only C++ knows, and lists of numbers that C++ writes to.
 bool is_hidden(const Type& type, const Field& row) {
-    if (row.type == FieldType::Other || (row.type == FieldType::Text && row.count == nullptr && row.text == nullptr))
+    if (row.type == FieldType::Other ||
+        (row.type == FieldType::Text && row.count == nullptr && row.text == nullptr))
         return true;
     if (row.count == nullptr || row.resize != nullptr || row.most == row.fewest) return false;
     if (row.count(type.fresh()) == row.most) return false;  // a fixed array
     return std::none_of(type.spans.begin(), type.spans.end(),
                         [&](const SpanRow& each) { return std::string_view(each.name) == row.name; });
+}
+
+/// "from_" for a row whose name Python keeps for itself.
+std::string name_of(const Field& row) {
+    static const auto* const is_keyword = new py::object(py::module_::import("keyword").attr("iskeyword"));
+    return (*is_keyword)(row.name).cast<bool>() ? std::string(row.name) + "_" : row.name;
 }
 
 const Type& type_of_table(std::span<const Field> (*table)() noexcept) {
@@ -234,7 +247,8 @@ const Type& type_of_table(std::span<const Field> (*table)() noexcept) {
 const Type& type_of_class(py::handle cls) {
     const auto mro = py::reinterpret_borrow<py::tuple>(reinterpret_cast<PyTypeObject*>(cls.ptr())->tp_mro);
     for (const py::handle each : mro)
-        if (const auto found = types().find(reinterpret_cast<PyTypeObject*>(each.ptr())); found != types().end())
+        if (const auto found = types().find(reinterpret_cast<PyTypeObject*>(each.ptr()));
+            found != types().end())
             return *found->second;
     throw py::type_error("tendril.Struct has no members; use one of its subclasses");
 }
@@ -292,7 +306,8 @@ void expect_struct(const Field& row, py::handle given, const std::string& place)
     throw py::type_error(place + " must be a " + names + ", got " + shown(given));
 }
 
-std::vector<py::object> elements_of(const Field& row, py::handle given, const std::string& place, std::size_t size) {
+std::vector<py::object> elements_of(const Field& row, py::handle given, const std::string& place,
+                                    std::size_t size) {
     if (PyUnicode_Check(given.ptr()) || !py::isinstance<py::iterable>(given))
         throw py::type_error(place + " must be a list, got " + shown(given));
     std::vector<py::object> all;
@@ -302,22 +317,23 @@ std::vector<py::object> elements_of(const Field& row, py::handle given, const st
     }
     const bool fixed = row.resize == nullptr && row.most == size && size > 0;
     if (fixed ? all.size() != size : all.size() < row.fewest || all.size() > row.most)
-        throw py::value_error(place + " must have " +
-                              (fixed ? std::to_string(size)
-                                     : std::to_string(row.fewest) + " to " + std::to_string(row.most)) +
-                              " elements, got " + std::to_string(all.size()));
+        throw py::value_error(
+            place + " must have " +
+            (fixed ? std::to_string(size) : std::to_string(row.fewest) + " to " + std::to_string(row.most)) +
+            " elements, got " + std::to_string(all.size()));
     return all;
 }
 
 std::string text_from(py::handle given, const std::string& place) {
-    if (!py::isinstance<py::str>(given)) throw py::type_error(place + " must be a string, got " + shown(given));
+    if (!py::isinstance<py::str>(given))
+        throw py::type_error(place + " must be a string, got " + shown(given));
     return given.cast<std::string>();
 }
 
 void set(Struct& to, std::size_t at, py::handle given) {
     const Type& type = *to.type;
     const Field& row = type.table[at];
-    const std::string place = type.name + ": " + row.name;
+    const std::string place = type.name + ": " + name_of(row);
     if (is_struct(row)) {
         if (row.count != nullptr) {
             const std::vector<py::object> all = elements_of(row, given, place, row.count(to.object));
@@ -347,10 +363,12 @@ void set(Struct& to, std::size_t at, py::handle given) {
                 row.set(element, value_from_python(row, all[i], element_place));
         }
     } else if (row.type == FieldType::Text) {
-        row.set_text(changed.get(), given.is_none() && row.optional ? std::string() : text_from(given, place));
+        row.set_text(changed.get(),
+                     given.is_none() && row.optional ? std::string() : text_from(given, place));
     } else if (row.type == FieldType::Index) {
         const double index = given.is_none() && row.optional ? -1.0 : number_from_python(row, given, place);
-        if (!given.is_none() && index < 0.0) throw py::value_error(place + " must not be negative, got " + shown(given));
+        if (!given.is_none() && index < 0.0)
+            throw py::value_error(place + " must not be negative, got " + shown(given));
         if (index < 0.0)
             row.set(changed.get(), {std::numeric_limits<double>::infinity()});  // reads back as none
         else
@@ -365,7 +383,7 @@ void set(Struct& to, std::size_t at, py::handle given) {
 
 std::size_t row_named(const Type& type, const std::string& name, const std::string& what) {
     for (std::size_t at = 0; at < type.table.size(); ++at)
-        if (name == type.table[at].name && !is_hidden(type, type.table[at])) return at;
+        if (name == name_of(type.table[at]) && !is_hidden(type, type.table[at])) return at;
     throw py::type_error(what + " has no argument '" + name + "'");
 }
 
@@ -389,7 +407,7 @@ py::dict changed_members(const Struct& from) {
         const Field& row = from.type->table[at];
         if (is_hidden(*from.type, row)) continue;
         const py::object value = get(from, at);
-        if (!value.equal(get(fresh, at))) all[row.name] = value;
+        if (!value.equal(get(fresh, at))) all[name_of(row).c_str()] = value;
     }
     return all;
 }
@@ -398,8 +416,9 @@ std::string repr_of(const Struct& from) {
     std::string text;
     for (const auto& [name, given] : changed_members(from)) {
         const bool is_choice = py::isinstance(given, py::module_::import("enum").attr("Enum"));
-        text += (text.empty() ? "" : ", ") + py::cast<std::string>(name) + "=" +
-                text_of(is_choice ? py::object(given.attr("value")) : py::reinterpret_borrow<py::object>(given));
+        text +=
+            (text.empty() ? "" : ", ") + py::cast<std::string>(name) + "=" +
+            text_of(is_choice ? py::object(given.attr("value")) : py::reinterpret_borrow<py::object>(given));
     }
     return from.type->name + "(" + text + ")";
 }
@@ -430,7 +449,8 @@ py::object deep_copy(const Struct& from) {
 
 Struct::Struct(const Type& of, const void* from) : type(&of), object(of.copy(from)), held(of.table.size()) {
     for (std::size_t at = 0; at < held.size(); ++at)
-        if (const Field& row = of.table[at]; is_struct(row) && !is_hidden(of, row)) held[at] = held_from(row, object);
+        if (const Field& row = of.table[at]; is_struct(row) && !is_hidden(of, row))
+            held[at] = held_from(row, object);
 }
 
 Struct::~Struct() {
@@ -444,7 +464,8 @@ void Struct::copy_to(void* to, Storage& storage) const {
         const Field& row = type->table[at];
         if (row.count != nullptr) {
             std::vector<const Struct*> elements;
-            for (const py::handle each : py::reinterpret_borrow<py::tuple>(held[at])) elements.push_back(as_struct(each));
+            for (const py::handle each : py::reinterpret_borrow<py::tuple>(held[at]))
+                elements.push_back(as_struct(each));
             const auto span = std::find_if(type->spans.begin(), type->spans.end(), [&](const SpanRow& each) {
                 return std::string_view(each.name) == row.name;
             });
@@ -453,7 +474,8 @@ void Struct::copy_to(void* to, Storage& storage) const {
                 continue;
             }
             if (row.resize != nullptr) row.resize(to, elements.size());
-            for (std::size_t i = 0; i < elements.size(); ++i) elements[i]->copy_to(row.address_in(to, i), storage);
+            for (std::size_t i = 0; i < elements.size(); ++i)
+                elements[i]->copy_to(row.address_in(to, i), storage);
         } else if (held[at].is_none()) {
             row.resize(to, 0);
         } else {
@@ -510,13 +532,14 @@ void bind_type(py::module_& module, Type& type) {
         }
         const Type* const of = &type;
         const std::string text = help(std::string(type.cpp) + "." + row.name);
-        members[row.name] = property(
-            py::cpp_function([of, at](const py::object& self) { return get(struct_of(*of, self, "self"), at); }),
-            py::cpp_function([of, at](const py::object& self, const py::object& given) {
-                struct_of(*of, self, "self");
-                set(self.cast<Struct&>(), at, given);
-            }),
-            py::none(), text);
+        members[name_of(row).c_str()] =
+            property(py::cpp_function(
+                         [of, at](const py::object& self) { return get(struct_of(*of, self, "self"), at); }),
+                     py::cpp_function([of, at](const py::object& self, const py::object& given) {
+                         struct_of(*of, self, "self");
+                         set(self.cast<Struct&>(), at, given);
+                     }),
+                     py::none(), text);
     }
     const py::object made = py::type::of(base)(type.name, py::make_tuple(base), members);
     type.python = reinterpret_cast<PyTypeObject*>(made.ptr());
@@ -528,7 +551,8 @@ namespace {
 
 /// The subclass says which struct it is.
 void construct(py::detail::value_and_holder& self, const py::dict& members) {
-    const Type& type = type_of_class(reinterpret_cast<PyObject*>(Py_TYPE(reinterpret_cast<PyObject*>(self.inst))));
+    const Type& type =
+        type_of_class(reinterpret_cast<PyObject*>(Py_TYPE(reinterpret_cast<PyObject*>(self.inst))));
     auto fresh = std::make_unique<Struct>(type, type.fresh());
     set_all(*fresh, members, type.name);
     if (self.value_ptr() != nullptr) throw py::type_error(type.name + " is made already");
@@ -540,7 +564,8 @@ void construct(py::detail::value_and_holder& self, const py::dict& members) {
 void bind_structs(py::module_& module) {
     py::class_<Struct> base(module, "Struct", help("Struct"));
     base.def(
-        "__init__", [](py::detail::value_and_holder& self, const py::kwargs& members) { construct(self, members); },
+        "__init__",
+        [](py::detail::value_and_holder& self, const py::kwargs& members) { construct(self, members); },
         py::detail::is_new_style_constructor());
     base.def("__repr__", [](const Struct& self) { return repr_of(made(self)); });
     base.def("__eq__", [](const Struct& self, const py::object& other) -> py::object {
@@ -549,7 +574,8 @@ void bind_structs(py::module_& module) {
         return py::bool_(same(made(self), *given));
     });
     base.attr("__hash__") = py::none();
-    base.def("copy", [](const Struct& self) { return deep_copy(made(self)); }, help("Struct.copy"));
+    base.def(
+        "copy", [](const Struct& self) { return deep_copy(made(self)); }, help("Struct.copy"));
     base.def("__copy__", [](const Struct& self) { return deep_copy(made(self)); });
     base.def("__deepcopy__", [](const Struct& self, const py::object&) { return deep_copy(made(self)); });
     base.def("__getstate__", [](const Struct& self) { return changed_members(made(self)); });

@@ -135,7 +135,8 @@ Held<T> options(py::handle given, const py::kwargs& arguments, const char* funct
 
 // ---- Enumerations: Python's enum.Enum, whose members are also strings.
 
-void bind_enum(py::module_& module, const char* name, std::string_view cpp, std::span<const char* const> choices);
+void bind_enum(py::module_& module, const char* name, std::string_view cpp,
+               std::span<const char* const> choices);
 py::object choice(std::string_view cpp, std::size_t index);
 /// A member, or its name as a string.
 std::size_t choice(std::string_view cpp, py::handle given, const char* what);

@@ -161,9 +161,9 @@ class AngleLimit(Struct):
     """Min [rad, -pi to pi, default -pi]."""
     max: float
     """Max [rad, -pi to pi, default pi]."""
-    from: AngleFrom | str
+    from_: AngleFrom | str
     """From [default bone]."""
-    def __init__(self, *, min: float = ..., max: float = ..., from: AngleFrom | str = ...) -> None: ...
+    def __init__(self, *, min: float = ..., max: float = ..., from_: AngleFrom | str = ...) -> None: ...
 
 
 class Plane(Struct):
