@@ -118,7 +118,8 @@ class Solve(unittest.TestCase):
         self.assertEqual((joints.shape, report.status), ((1, 3), "Stretched"))
 
     def test_objects_without_a_constructor_are_refused(self):
-        for each in (tendril.Solver, tendril.State, tendril.Batch, tendril.ManyReport, tendril.signal.Chain, tendril.Options):
+        for each in (tendril.Solver, tendril.State, tendril.Batch, tendril.ManyReport, tendril.signal.Chain, tendril.Options,
+                     tendril.rope.World):
             empty = each.__new__(each)
             for name in dir(each):
                 if name in ("__class__", "__doc__", "__new__", "__init__", "__setstate__", "__init_subclass__") or \

@@ -9,7 +9,7 @@ import tendril
 
 
 def structs():
-    for module in (tendril, tendril.signal):
+    for module in (tendril, tendril.rope, tendril.signal):
         for each in vars(module).values():
             if inspect.isclass(each) and issubclass(each, tendril.Struct) and each is not tendril.Struct:
                 yield each

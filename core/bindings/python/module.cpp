@@ -14,6 +14,7 @@ PYBIND11_MODULE(_tendril, module) {
     python::bind_ik(module);
     python::bind_many(module);
     python::bind_signal(module);
+    python::bind_rope(module);
     module.attr("__name__") = name;
     module.doc() = python::help("tendril");
 }

@@ -8,5 +8,6 @@ namespace tendril::python {
 void bind_ik(pybind11::module_& root);
 void bind_many(pybind11::module_& root);
 void bind_signal(pybind11::module_& root);
+void bind_rope(pybind11::module_& root);
 
 }  // namespace tendril::python

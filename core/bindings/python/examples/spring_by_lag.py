@@ -35,6 +35,7 @@ for name, filters in measured.items():
 axes.axvline(MOST_LAG * 1e3, color="grey", linestyle=":")
 axes.plot(lag * 1e3, jitter * 100, "k*", markersize=14, label="chosen")
 axes.set(xlabel="lag, ms", ylabel="jitter left, %", yscale="log", title="A hand that trembles, at 60 Hz")
+axes.set_yticks([5, 10, 20, 50], labels=["5", "10", "20", "50"])
 axes.legend()
 if len(sys.argv) > 1:
     figure.savefig(sys.argv[1], dpi=100)

@@ -1,5 +1,5 @@
 # Written by core/bindings/generate from stubs/tendril.pyi and the library's tables. Edit those.
-"""Chains that reach, filters, ropes and linkages: the library Tendril.
+"""Chains that reach; tendril.signal has filters, tendril.rope ropes and cloth.
 
     arm = tendril.Solver([0.4, 0.35, 0.1])
     joints, report = arm.solve(arm.rest_joints(), (0.3, 0.4, 0.1), pole=(0, -1, 0))
