@@ -34,8 +34,11 @@ class Wheel(unittest.TestCase):
             report, file = run(python, folder / "first.py", env=alone, cwd=folder).splitlines()[-2:]
             self.assertTrue(report.startswith("Report("), report)
             self.assertIn(str(folder / "venv"), file)
-            missing = run("ldd", next(Path(file).parent.glob("_tendril*.so")))
-            self.assertIn(str(Path(file).parent / "libhwy"), missing, "takes Highway from the wheel")
+            module = next(Path(file).parent.glob("_tendril*.so"))
+            self.assertIn(str(module.parent / "libhwy"), run("ldd", module), "takes Highway from the wheel")
+            self.assertRegex(run("readelf", "-d", module), r"Library runpath: \[\$ORIGIN\]")
+            needed = set(re.findall(r"NEEDED.*\[(\S+)\.so", run("readelf", "-d", module)))
+            self.assertLessEqual(needed, {"libc", "libm", "libhwy", "ld-linux-x86-64", "libpthread"})
 
 
 if __name__ == "__main__":

@@ -65,6 +65,8 @@ def write_wheel(folder, package):
                                  "Requires-Python: >=3.9\nRequires-Dist: numpy\n").encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: tendril\nRoot-Is-Purelib: false\nTag: {tag()}\n").encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    for terms in sorted(Path("/usr/share/doc").glob("libhwy*/copyright"))[:1]:
+        files[f"{info}/LICENSE.highway"] = terms.read_bytes()
 
     def row(path, content):
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
