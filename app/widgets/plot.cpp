@@ -324,7 +324,7 @@ class Plot {
     ImDrawList* list_;
     ImVec2 from_{}, to_{};
     float most_x_ = 0.0f, low_ = 0.0f, high_ = 1.0f;
-    bool has_zero_ = false;  ///< whether a value is 0, where the axis is logarithmic
+    bool has_zero_ = false;  ///< a value is 0, on a logarithmic axis
 };
 
 }  // namespace
