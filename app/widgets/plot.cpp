@@ -284,8 +284,7 @@ class Plot {
         }
     };
 
-    /// Writes names beside single points where there is room, in order, covering neither each other nor a
-    /// point.
+    /// Writes names beside single points where there is room, in order, overlapping neither names nor points.
     void names() {
         std::vector<Box> taken;
         const float unit = ImGui::GetFontSize();
