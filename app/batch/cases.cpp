@@ -122,12 +122,13 @@ void read_plane(const JsonPlace& place, Case& read) {
 
 constexpr const char* drive_form = "JOINT=VALUE or JOINT=FROM:TO:STEP";
 constexpr const char* target_form = "POINT=X,Y,Z";
-constexpr double furthest = 1e6;  ///< degrees or metres, as in linkage.drive
+constexpr double max_drive_value = 1e6;  ///< degrees or metres, as in linkage.drive
 
 /// The values from "from" to "to"; the last may exceed the end only by rounding.
 std::vector<double> range_values(const JsonPlace& place) {
-    const double from = place["from"].real(-furthest, furthest), to = place["to"].real(-furthest, furthest),
-                 step = place["step"].real(-furthest, furthest);
+    const double from = place["from"].real(-max_drive_value, max_drive_value),
+                 to = place["to"].real(-max_drive_value, max_drive_value),
+                 step = place["step"].real(-max_drive_value, max_drive_value);
     if (!((to - from) * step > 0.0)) place["step"].fail("must lead from \"from\" to \"to\"");
     const double count = std::floor((to - from) / step + 1e-9);
     if (count >= static_cast<double>(max_linkage_rows))
@@ -141,9 +142,10 @@ std::vector<double> range_values(const JsonPlace& place) {
 std::vector<double> driver_values(const JsonPlace& place) {
     if (place.json().is_object()) return range_values(place);
     std::vector<double> values;
-    if (!place.json().is_array()) return {place.real(-furthest, furthest)};
-    place.for_each("values", max_linkage_rows,
-                   [&](const JsonPlace& each) { values.push_back(each.real(-furthest, furthest)); });
+    if (!place.json().is_array()) return {place.real(-max_drive_value, max_drive_value)};
+    place.for_each("values", max_linkage_rows, [&](const JsonPlace& each) {
+        values.push_back(each.real(-max_drive_value, max_drive_value));
+    });
     return values;
 }
 

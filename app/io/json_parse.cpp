@@ -1,5 +1,5 @@
-// Parses JSON from untrusted files: bounded depth, time that depends on the text's size alone, and errors
-// with line numbers.
+// Parses JSON from untrusted files: bounded depth, time that depends only on the text's size, and errors with
+// line numbers.
 #include <algorithm>
 #include <numeric>
 #include <vector>

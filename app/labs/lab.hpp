@@ -142,8 +142,7 @@ class Lab {
     /// Its incidents in a change or a tick: `before` and `after` are parts of this lab; the workspace gives
     /// access to its runtime. The caller sets the ticks.
     std::vector<Incident> review(const Workspace& workspace, const Part& before, const Part& after) const;
-    /// True if incidents in `before` still apply to `after`: the joints are the same. If not, they are
-    /// dropped.
+    /// True if incidents in `before` still apply to `after`: the joints are the same. Others are dropped.
     bool same_joints(const Part& before, const Part& after) const;
     /// True if a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }

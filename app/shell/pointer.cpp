@@ -181,7 +181,7 @@ void Pointer::release_button(const Input& input, const Scene& scene, Emit& emit)
         }
         if (stroking_ && caught_ == no_pick)
             scene.lab.stroke(scene.workspace, scene.pane, scene.camera, caught_at_, caught_at_, emit);
-        clicked_ = twice ? no_pick : caught_;  // a third click starts anew
+        clicked_ = twice ? no_pick : caught_;  // a third click starts again
         clicked_at_ = input.mouse();
         since_click_ = 0;
     }

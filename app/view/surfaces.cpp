@@ -396,8 +396,7 @@ void Edges::join() {
         meet(outline.b, outline.a);
     }
     for (const Joined& outline : joined_) {
-        // Seen from b, left and right are swapped, and so are forwards and backwards: the lean keeps its
-        // sign.
+        // Seen from b, left and right are swapped, and forwards and backwards too: the lean keeps its sign.
         list_.strokes[outline.stroke].mitre = {mitre_at(outline.a, outline.b),
                                                mitre_at(outline.b, outline.a)};
     }

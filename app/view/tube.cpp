@@ -177,15 +177,15 @@ class Tube {
 
     void skin(int wanted) {
         // Where the tube reverses it ends and restarts, since a circle cannot follow.
-        constexpr float right_back = -0.2f;
+        constexpr float reversal_cosine = -0.2f;
         for (const CurvePoint& point : curve_) circles_.push_back(ring(point));
         const int count = sides(wanted);
         for (std::size_t i = 0; i < circles_.size(); ++i) {
             const bool last = i + 1 == circles_.size();
-            if (i == 0 || glm::dot(circles_[i - 1].axis, circles_[i].axis) < right_back)
+            if (i == 0 || glm::dot(circles_[i - 1].axis, circles_[i].axis) < reversal_cosine)
                 cap(circles_[i], -1.0f, count);
             rings_.push_back(circles_[i]);
-            if (last || glm::dot(circles_[i].axis, circles_[i + 1].axis) < right_back)
+            if (last || glm::dot(circles_[i].axis, circles_[i + 1].axis) < reversal_cosine)
                 cap(circles_[i], 1.0f, count);
         }
         TubeSkin(list_, camera_, count).cover(rings_);

@@ -33,7 +33,7 @@ enum class Icon {
 
 /// A square, frameless button of the frame's height. `tooltip` may be null.
 bool icon_button(const char* id, Icon icon, const char* tooltip, bool enabled = true, bool active = false);
-/// The icon alone, in a box of `size` pixels around `centre`.
+/// Only the icon, in a box of `size` pixels around `centre`.
 void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 colour);
 
 }  // namespace tendril::app

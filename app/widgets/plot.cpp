@@ -284,8 +284,7 @@ class Plot {
         }
     };
 
-    /// Writes names beside single points where there is room, in order, covering neither each other nor a
-    /// point.
+    /// Writes names beside single points where there is room, in order, overlapping neither names nor points.
     void names() {
         std::vector<Box> taken;
         const float unit = ImGui::GetFontSize();
@@ -324,7 +323,7 @@ class Plot {
     ImDrawList* list_;
     ImVec2 from_{}, to_{};
     float most_x_ = 0.0f, low_ = 0.0f, high_ = 1.0f;
-    bool has_zero_ = false;  ///< whether a value is 0, where the axis is logarithmic
+    bool has_zero_ = false;  ///< a value is 0, on a logarithmic axis
 };
 
 }  // namespace

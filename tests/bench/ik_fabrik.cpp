@@ -2,7 +2,7 @@
 //
 // Claims: 20 forced iterations of 10 bones take at most 0.012 loops (measure.hpp) per bone and pass, at
 // most 1.5 times a bare loop measured in the same run; the cost grows linearly; an accelerated iteration
-// costs at most twice a plain one, and in a plane as much as a solid one.
+// costs at most twice a plain one, and no more in a plane than in space.
 // Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
-// The library's own elementary functions against the system's. Claims: at most 1.3 times as long, for the
-// angles that solvers meet.
+// The library's own elementary functions against the system's. Claim: they take at most 1.3 times as long for
+// the angles that solvers use.
 #include "core/src/math/elementary.hpp"
 
 #include <cmath>

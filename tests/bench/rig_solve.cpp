@@ -3,11 +3,10 @@
 // Claims, for the worst row:
 //  - a unit of any kind except those that solve chains of bones takes at most 0.4 loops (measure.hpp) per
 //    frame, among 1 000;
-//  - a unit costs the same among 10 and among 10 000 of its kind, to a factor of 3.5: ten thousand do not fit
-//  in a
-//    cache of 1 MB;
-//  - a changed value (a slider's drag) costs at most a seventh of making the rig anew, among 100 units or
-//  more.
+//  - a unit costs the same among 10 and among 10 000 of its kind, within a factor of 3.5: 10 000 do not fit
+//    in a cache of 1 MB;
+//  - a changed value (a slider's drag) costs at most a seventh of making the rig again, among at least 100
+//    units.
 #include "measure.hpp"
 #include "tendril/rig/workspace.hpp"
 

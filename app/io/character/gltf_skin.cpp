@@ -35,7 +35,7 @@ std::vector<glm::vec3> vectors(const Values& rows) {
 }
 
 /// Shown in place of a picture that cannot be read.
-constexpr float lost_gray = 0.55f;
+constexpr float missing_picture_grey = 0.55f;
 
 /// KHR_texture_transform (Khronos): the texture coordinates of a texture, and their transform.
 struct TextureTransform {
@@ -300,7 +300,7 @@ class GltfSkinReader {
         if (!at(model_.textures, base.baseColorTexture.index)) return part;
         part.picture = picture(base.baseColorTexture.index);
         if (part.picture < 0) {
-            part.colour = glm::vec4(lost_gray, lost_gray, lost_gray, 1.0f);
+            part.colour = glm::vec4(missing_picture_grey, missing_picture_grey, missing_picture_grey, 1.0f);
             return part;
         }
         const TextureTransform transform(base.baseColorTexture);

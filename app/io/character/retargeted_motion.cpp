@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double hardly_sure = 0.8;  // bones below this confidence are reported as guesses
+constexpr double min_confidence = 0.8;  // bones below this confidence are reported as guesses
 
 /// "Chest, Toes": left and right as one name if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
@@ -77,7 +77,7 @@ std::vector<std::string> guesses_of(const Character& character, const humanoid::
     std::vector<std::string> all = character.sentences();
     std::vector<humanoid::Bone> bones;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        if (map.bones[i].node >= 0 && map.bones[i].confidence < hardly_sure)
+        if (map.bones[i].node >= 0 && map.bones[i].confidence < min_confidence)
             bones.push_back(static_cast<humanoid::Bone>(i));
     if (!bones.empty()) all.push_back("Guessed bones: " + bone_names(bones) + '.');
     return all;

@@ -55,7 +55,7 @@ class BodyField {
 
     /// The approximate distance from the surface, negative inside. `near`: the cones that matter here.
     float distance(const glm::vec3& point, std::span<const std::uint16_t> near) const;
-    /// The distance from each group alone; over 1e8 if none of its cones is near.
+    /// The distance from each group by itself; over 1e8 if none of its cones is near.
     Distances groups(const glm::vec3& point, std::span<const std::uint16_t> near) const;
     std::span<const std::uint16_t> all() const { return all_; }
     /// Collects the cones of `among` that matter within `radius` of the point; returns the distance there.
@@ -81,7 +81,7 @@ class BodyField {
 struct BodySurface {
     std::vector<glm::vec3> positions{}, normals{};
     std::vector<std::uint32_t> indices{};        ///< counter-clockwise, seen from outside
-    std::vector<BodyField::Distances> groups{};  ///< the distance from each group alone, at each position
+    std::vector<BodyField::Distances> groups{};  ///< the distance from each group by itself, at each position
 };
 
 /// The field's surface, closed, from a grid of cubes of that size.

@@ -73,7 +73,7 @@ Known<TraceUp> up_by_height(std::span<const RawFrame> frames) {
 }
 
 /// How much a bone's direction varies in its own frame: little if the numbers are read in the right order.
-double wander(std::span<const RawFrame> frames, QuaternionOrder order) {
+double direction_spread(std::span<const RawFrame> frames, QuaternionOrder order) {
     double wandered = 0.0;
     std::vector<glm::dvec3> first;
     for (const RawFrame& frame : frames) {
@@ -96,7 +96,8 @@ double wander(std::span<const RawFrame> frames, QuaternionOrder order) {
 }
 
 Known<QuaternionOrder> order_by_bones(std::span<const RawFrame> frames) {
-    const double last = wander(frames, QuaternionOrder::Xyzw), first = wander(frames, QuaternionOrder::Wxyz);
+    const double last = direction_spread(frames, QuaternionOrder::Xyzw),
+                 first = direction_spread(frames, QuaternionOrder::Wxyz);
     const bool sure = std::max(last, first) > 4.0 * std::min(last, first) + 1e-3;
     return {first < last ? QuaternionOrder::Wxyz : QuaternionOrder::Xyzw, sure,
             sure ? "the bones keep their own axis so" : "the rotations do not show it"};

@@ -53,8 +53,7 @@ struct TracedFrame {
 struct TraceSolve {
     ik::Method method = ik::Method::Fabrik;
     float soft_zone = 0.0f;   ///< fraction of the reach, 0 to 1
-    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it, relative to the
-                              ///< root
+    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it there
     int hinge = 0;            ///< this joint only bends one way, as in the first frame; 0: none
 
     bool operator==(const TraceSolve&) const = default;

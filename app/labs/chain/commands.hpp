@@ -26,7 +26,7 @@ namespace tendril::app {
 //
 // The bones from the root to the dragged joint are solved for the drag point; the bones beyond it then reach
 // for the target. So dragging an elbow swings it while the hand stays on the target, like an IK goal in
-// Blender or an IK handle in Maya, and dragging it back restores the tip; bones that were merely carried
+// Blender or an IK handle in Maya, and dragging it back restores the tip; bones that were merely moved
 // along rigidly would not return. Root and target stay. Dragging the tip leaves the target alone; dragging
 // the root moves the whole chain, which then reaches for the target again. Several dragged joints are solved
 // from the root outwards, each section from the end of the one before. Joint limits always hold. The pole

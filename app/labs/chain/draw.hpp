@@ -78,7 +78,7 @@ std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palett
 /// Drawn under a chain that shows the state after an incident: the pose before, and the joint's jump.
 void draw_incident(const View& view, const ChainPart& part, DrawList& list);
 
-// Colours of this lab alone; the others are in view/palette.hpp.
+// Colours used only in this lab; the others are in view/palette.hpp.
 
 /// The curve's colour too: pole target and curve both show which way the chain bends.
 glm::vec3 pole_colour(const Palette& palette);

@@ -85,7 +85,7 @@ ik::State& state_for(ReachSettings& settings, std::size_t bones) {
 }
 
 /// Clears memory that is not valid, so that equal states are bit-identical, also after saving and loading.
-static void forget_what_is_not_valid(ik::State& state) {
+static void clear_invalid(ik::State& state) {
     if (!state.limits.valid) state.limits = {};
     if (state.pole.valid) return;
     std::vector<glm::vec3> joints = std::move(state.pole.joints);
@@ -105,7 +105,7 @@ std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, gl
     if (result.report.status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this target, pole or limit");
     }
-    forget_what_is_not_valid(state);
+    clear_invalid(state);
     if (!is_limited(settings)) return result;
     if (result.report.status == ik::Status::Limited)
         result.active_limit = solver.explain(positions(chain), state, target, options);

@@ -1,6 +1,6 @@
 // Analysing a solve with the microscope, or several with the race. While either is open, every solve begins
 // at the same start, so that moving the target shows another path from the same pose. Both are played and
-// scrubbed alike.
+// scrubbed in the same way.
 #pragma once
 
 #include <array>

@@ -46,7 +46,7 @@ std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
                        .rocker = glm::length(way(part, loop.end, loop.pin))};
 }
 
-/// True if the joint is a hinge in the plane without a range, so that all its turns look alike.
+/// True if the joint is a hinge in the plane without a range: whole turns then make no difference.
 bool goes_round(const LinkagePart& part, std::string_view joint) {
     if (!part.shape->in_plane() || !turns(part, joint)) return false;
     const ik::Link& link = part.linkage().links[*part.linkage().find_link(joint)];

@@ -72,7 +72,7 @@ struct RigPicture {
 
     bool is_selected(std::size_t i) const { return view.handles && selected.has(i); }
     bool is_active(std::size_t i) const { return view.handles && selected.active() == i; }
-    /// Names and arrowheads keep clear of the gizmo, which only an element selected alone has.
+    /// Names and arrowheads keep clear of the gizmo, which is shown only if one element is selected.
     bool has_gizmo(std::size_t i) const { return part.selected.only_element() == i; }
     bool is_lit(std::size_t i) const {
         const PickId pick = view.dragged != no_pick ? view.dragged : view.hovered;

@@ -151,7 +151,7 @@ class Watched final : public rig::Observer {
 // Reasons for a bone's sudden rotation, by kind of unit.
 
 using Cause = std::optional<std::string>;
-constexpr float close_by = 0.17f;  ///< radians, about ten degrees
+constexpr float half_turn_margin = 0.17f;  ///< radians, about ten degrees
 
 /// The inputs of a unit in one of the two solves.
 class Given {
@@ -238,7 +238,7 @@ Cause by_input(const Both& both) {
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
     const float furthest = std::max(ik::angle_between(from_was, to_was), ik::angle_between(from_is, to_is));
     const float axis = ik::angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
-    if (glm::pi<float>() - furthest > close_by || axis < 0.25f * static_cast<float>(radians))
+    if (glm::pi<float>() - furthest > half_turn_margin || axis < 0.25f * static_cast<float>(radians))
         return std::nullopt;
     return "the target was about half a turn away, where neither way round is shorter";
 }

@@ -36,8 +36,8 @@ std::string kind_names();
 Json filter_state_json(const signal::FilterState& state);
 signal::FilterState filter_state_from_json(const JsonPlace& place);
 
-/// Adds the line in `text` to `error`, which begins with a JSON path under `where`. The text must contain at
-/// least one filter.
+/// Adds the line in `text` to `error`, which begins with a JSON path under `where`. The text must contain a
+/// filter.
 std::string with_line(const std::string& text, const std::string& where, const std::string& error);
 
 // Labels and help for the fields of filters.

@@ -1,4 +1,4 @@
-// `tendril solve` with linkages: sweeps, scenes, and what is refused.
+// `tendril solve` with linkages: sweeps, scenes and refusals.
 #include <glm/trigonometric.hpp>
 #include <tendril/ik/mechanisms.hpp>
 

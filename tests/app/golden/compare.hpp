@@ -1,4 +1,4 @@
-// Whether two pictures look the same to a viewer.
+// Decides whether two pictures look the same to a viewer.
 //
 // Two measures in CIELAB, where a difference of about 2.3 is just noticeable. Pictures differ if more than
 // `max_pixels` pixels exceed the limit of either measure.

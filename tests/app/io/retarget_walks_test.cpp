@@ -259,9 +259,9 @@ const std::vector<Source>& retargeted_sources() {
         Source{"found/bvh_z_up.bvh", "", 0.0, 19.0}, Source{"found/fbx_inherit_scale_human.fbx", ""}};
     return sources;
 }
-/// Metres for a person. More where the rest pose does not show the soles: the lint uses the lowest joints
-/// instead, retarget() what find_soles() finds below them, up to 66 mm for feet without toes. mixed_orders
-/// rests with its toes 60 degrees up, which the lint takes for their standing pose.
+/// Tolerances, metres for a person. Larger if the rest pose does not show the soles: the lint then uses the
+/// lowest joints, retarget() the points that find_soles() finds below them, up to 66 mm for feet without
+/// toes. mixed_orders rests with its toes 60 degrees up, which the lint takes for their standing pose.
 struct Target {
     const char* file;
     double off_ground = 0.005, landing = 0.015;

@@ -48,7 +48,7 @@ Node read_node(const Objects& objects, std::size_t object, std::vector<std::stri
     node.translation = vector("Lcl Translation");
     node.euler = vector("Lcl Rotation");
     node.scale = vector("Lcl Scaling", 1.0);
-    // Order, pre- and post-rotation need RotationActive, and may apply to limits alone.
+    // Order, pre- and post-rotation need RotationActive, and may apply only to limits.
     if (objects.integer(object, "RotationActive", 0) != 0 &&
         objects.integer(object, "RotationSpaceForLimitOnly", 0) == 0) {
         const std::int64_t order = objects.integer(object, "RotationOrder", 0);

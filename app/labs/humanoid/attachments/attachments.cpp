@@ -30,7 +30,7 @@ Made make_rope(const AttachmentShape& shape, const Wearer& wearer, const glm::dv
                              .segments = shape.segments,
                              .radius = static_cast<float>(radius),
                              .density = rope_density});
-    // Pins the particles inside the body and one more, so that a tail keeps its direction as it leaves it.
+    // Pins the particles inside the body and one more, so that a tail leaves it in its own direction.
     made.pinned = {0};
     const auto last = static_cast<std::size_t>(shape.segments);
     for (std::size_t i = 1; i < last; ++i) {

@@ -69,7 +69,7 @@ void keep(Workspace& workspace) {
     keep_map(folder_of(workspace), saved_map(*part.map, part.skeleton()), part.skeleton());
 }
 
-void keep_told(Workspace& workspace, const Arguments&) {
+void keep_and_report(Workspace& workspace, const Arguments&) {
     keep(workspace);
     workspace.toast("The bone map is kept for characters with these node names");
 }
@@ -156,7 +156,7 @@ Command keeping(Command command) {
 void add_kept_map_commands(CommandTable& table) {
     table.add("humanoid.map.keep", "Keep the bone map", {},
               "Keeps the bone map, to be offered for characters with the same node names", Effect::Look,
-              keep_told);
+              keep_and_report);
     table.add("humanoid.map.use", "Use the kept bone map", {},
               "Uses the bone map that was kept for these node names", Effect::Edit, use);
     table.add("humanoid.map.forget", "Forget the kept bone map", {},

@@ -26,9 +26,9 @@ using humanoid::Finding;
 using humanoid::LintReport;
 
 /// Number of frames times nodes that takes a tick or two to judge.
-constexpr double soon_judged = 60'000.0;
+constexpr double max_quick_work = 60'000.0;
 /// How much longer judging the result takes, since every frame is solved.
-constexpr double result_times = 10.0;
+constexpr double result_cost_factor = 10.0;
 
 std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
     if (part.ik.limits == LimitsFrom::Defaults || !part.map->is_usable()) return std::nullopt;
@@ -143,8 +143,8 @@ ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
 bool judged_soon(const HumanoidPart& part) {
     const Clip* const clip = part.clip();
     const double frames = clip ? clip->duration * humanoid::frame_rate(*clip) : 0.0,
-                 each = part.view.judged == JudgedClip::Result ? result_times : 1.0;
-    return each * frames * static_cast<double>(part.skeleton().size()) <= soon_judged;
+                 each = part.view.judged == JudgedClip::Result ? result_cost_factor : 1.0;
+    return each * frames * static_cast<double>(part.skeleton().size()) <= max_quick_work;
 }
 
 const LintReport* ClipLint::report(const HumanoidPart& part, Solvers& solvers) {

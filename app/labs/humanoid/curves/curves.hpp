@@ -43,8 +43,7 @@ std::optional<BoneChain> chain_of(const HumanoidPart& part, const BoneCurve& cur
 std::vector<BoneChain> bendable_chains(const HumanoidPart& part);
 /// "tail_1 to tail_6"
 std::string title_of(const HumanoidPart& part, const BoneChain& chain);
-/// The end of the chain from `first`: as in bendable_chains() or, failing that, at the end of the longest
-/// path.
+/// The end of the chain from `first`: as in bendable_chains() or, failing that, of the longest path.
 std::size_t end_of_chain(const HumanoidPart& part, std::size_t first);
 
 /// The index of the curve that begins at the node.

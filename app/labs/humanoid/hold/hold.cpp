@@ -34,7 +34,7 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
 namespace {
 
 /// Smaller amounts are not reported; metres and radians.
-constexpr double told_way = 5e-4, told_turn = 9e-3;
+constexpr double min_reported_offset = 5e-4, min_reported_rotation = 9e-3;
 
 /// "left upper arm"
 std::string bone_words(Bone bone) {
@@ -73,13 +73,13 @@ std::string hold_reason_text(const humanoid::HoldReport& report) {
 }
 
 bool is_closed(const humanoid::GripReport& grip) {
-    return grip.gap <= told_way && grip.off <= told_turn;
+    return grip.gap <= min_reported_offset && grip.off <= min_reported_rotation;
 }
 
 }  // namespace
 
 bool gives_way(const humanoid::HoldReport& report) {
-    return report.moved > told_way || report.turned > told_turn;
+    return report.moved > min_reported_offset || report.turned > min_reported_rotation;
 }
 
 Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report) {
@@ -92,15 +92,15 @@ Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& rep
         const std::string hands =
             both ? "Hands" : std::string("The ") + side_name(open(0) ? 0 : 1) + " hand is";
         const double gap = std::max(report.grips[0].gap, report.grips[1].gap);
-        const std::string text = gap > told_way
+        const std::string text = gap > min_reported_offset
                                      ? hands + ' ' + rounded_length_text(gap) + " short of the " + name
                                  : both ? "Hands turned off their grips"
                                         : hands + " turned off its grip";
         return {text, Verdict::Kind::Bad, hold_reason_text(report)};
     }
     if (!gives_way(report)) return {"Holds the " + name, Verdict::Kind::Good};
-    std::string by = report.moved > told_way ? rounded_length_text(report.moved) : "";
-    if (report.turned > told_turn) {
+    std::string by = report.moved > min_reported_offset ? rounded_length_text(report.moved) : "";
+    if (report.turned > min_reported_rotation) {
         const auto degrees = static_cast<std::size_t>(std::lround(glm::degrees(report.turned)));
         by += (by.empty() ? "" : " and ") + count_text(degrees, "degree");
     }

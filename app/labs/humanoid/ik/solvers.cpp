@@ -18,7 +18,7 @@ std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
 }
 
 /// Maximum number of blocks kept, for a clip that is scrubbed from end to end.
-constexpr std::size_t most_pasts = 32;
+constexpr std::size_t max_pasts = 32;
 
 /// Steps through a clip's ticks.
 class FeetWalk {
@@ -305,7 +305,7 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
         const std::int64_t next = block * block_ticks, known = pasts_.contains(next) ? pasts_[next].tick : -1;
         at(std::min(tick, next + known + 2), next, part, solvers);
     }
-    if (pasts_.size() > most_pasts)
+    if (pasts_.size() > max_pasts)
         std::erase_if(pasts_, [&](const auto& each) { return each.first < begin; });
     return found;
 }

@@ -18,7 +18,7 @@ struct HumanoidMoment {
     const HumanoidPart& part;
     const ShownPose& shown;
 
-    /// The pose of the clip alone.
+    /// The clip's own pose.
     const std::vector<humanoid::Placement>& clip() const {
         return shown.before.empty() ? shown.placed : shown.before;
     }
