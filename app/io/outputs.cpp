@@ -13,7 +13,7 @@ namespace tendril::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// One name for a file, however its path is spelled; hard links still differ.
+/// The same name for all paths to a file. A file with two names counts as two.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
     // A relative path without any existing part would stay as it is spelled.
