@@ -7,7 +7,7 @@ layout(location = 3) in vec4 tint;
 layout(location = 4) in ivec4 joints;
 layout(location = 5) in vec4 weights;
 
-uniform samplerBuffer matrices;  // three rows per joint: from the bind pose to the joint's present pose
+uniform sampler2D matrices;  // a row of three texels per joint, from its bind pose to its current pose
 
 #include "surface.glsl"
 
