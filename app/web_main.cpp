@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/document/scene_file.hpp"
 #include "app/io/json_complete.hpp"
 #include "app/live_loop.hpp"
 #include "app/script/recorder.hpp"
@@ -34,6 +35,7 @@ std::unique_ptr<Page> page;
 EM_JS(void, show_failure, (const char* text), { tendrilFailed(UTF8ToString(text)); });
 EM_JS(void, keep_files, (), { tendrilKeepFiles(); });
 EM_JS(void, show_page, (), { tendrilReady(); });
+EM_JS(void, show_address, (const char* scene), { tendrilAddress(UTF8ToString(scene)); });
 // clang-format on
 
 /// Ends with the reason on the page.
@@ -42,12 +44,30 @@ void fail(const std::exception& error) {
     show_failure(error.what());
 }
 
+/// The open lab's scene, for the page's address.
+std::string linked_scene() {
+    const Workspace& workspace = page->app.workspace();
+    Json scene = save_scene(workspace);
+    scene["labs"] = {{workspace.lab, scene["labs"][workspace.lab]}};
+    return scene.dump();
+}
+
+/// Once a change is over, the address says what is open.
+void update_address() {
+    static std::uint64_t edition = page->app.workspace().edition;
+    const std::uint64_t now = page->app.workspace().edition;
+    if (now == edition || page->app.busy()) return;
+    edition = now;
+    show_address(linked_scene().c_str());
+}
+
 void pass() {
     constexpr int passes_between = 300;  // frames; about 5 s
     static int passes = 0;
     try {
         page->live.pass(page->player, std::nullopt);
         if (++passes == 1) show_page();
+        update_address();
         if (passes % passes_between == 0) keep_files();
     } catch (const std::exception& error) {
         fail(error);
@@ -59,6 +79,11 @@ void start(const std::string& scene) {
     SessionOptions options;
     options.scene = scene;
     page->app.workspace().config = config_folder();
+    constexpr int narrow = 600;  // a phone held upright: the scene alone
+    if (page->window->size().x < narrow) {
+        Settings& settings = page->app.workspace().settings;
+        settings.left_open = settings.right_open = false;
+    }
     offer_cards(page->app);
     open_scene(page->app, options);
     page->live.begin();

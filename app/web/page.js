@@ -29,6 +29,14 @@ function handOver(name, bytes) {
     Module.ccall("tendril_drop", null, ["string"], [path]);
 }
 
+// The address holds the open lab's scene, so that it can be sent to others; a very large one does not fit.
+async function tendrilAddress(text) {
+    const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+    const packed = new Uint8Array(await new Response(stream).arrayBuffer());
+    const link = btoa(String.fromCharCode(...packed.subarray(0, 60000))).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+    if (packed.length < 60000) history.replaceState(null, "", `#scene=${link}`);
+}
+
 // "#scene=..." is a scene's text: deflated, in base64 with - and _ for + and /.
 async function sceneOfAddress() {
     const found = /^#scene=([\w-]+)$/.exec(location.hash);

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/view/picture.hpp"
 #include "tests/app/golden/golden.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/labels.hpp"
