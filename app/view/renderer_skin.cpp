@@ -137,8 +137,8 @@ class SkinPass::Sent {
 SkinPass::SkinPass() {
     glGenTextures(1, &matrices_);
     glBindTexture(GL_TEXTURE_2D, matrices_);
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
     white_ = texture_of({1, 1}, white.data());
     glBindTexture(GL_TEXTURE_2D, 0);
