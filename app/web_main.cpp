@@ -1,4 +1,4 @@
-// The program in a web page: the browser calls it for each frame.
+// The program in a web page. The browser calls pass() for each frame.
 #include <emscripten/emscripten.h>
 
 #include <atomic>
@@ -15,16 +15,16 @@
 #include "app/script/recorder.hpp"
 #include "app/session.hpp"
 #include "app/system/environment.hpp"
-#include "app/web/canvas_window.hpp"
+#include "app/window/window.hpp"
 
 namespace tendril::app {
 namespace {
 
 const std::atomic<bool> never{false};
 
-/// All that lives as long as the page.
+/// Lives as long as the page.
 struct Page {
-    std::unique_ptr<Window> window = open_canvas();
+    std::unique_ptr<Window> window = open_window(Backend::Glfw, {1, 1});  // the page decides the size
     App app{*window};
     LiveLoop live{app, *window, {.config = true, .ending = never}};
     Player player{Script{}};
@@ -38,13 +38,13 @@ EM_JS(void, show_page, (), { tendrilReady(); });
 EM_JS(void, show_address, (const char* scene), { tendrilAddress(UTF8ToString(scene)); });
 // clang-format on
 
-/// Ends with the reason on the page.
+/// Stops the program and shows the reason on the page.
 void fail(const std::exception& error) {
     emscripten_cancel_main_loop();
     show_failure(error.what());
 }
 
-/// The open lab's scene, for the page's address.
+/// The open lab's scene as JSON, for the page's address.
 std::string linked_scene() {
     const Workspace& workspace = page->app.workspace();
     Json scene = save_scene(workspace);
@@ -52,7 +52,7 @@ std::string linked_scene() {
     return scene.dump();
 }
 
-/// Once a change is over, the address says what is open.
+/// Updates the address after a change.
 void update_address() {
     static std::uint64_t edition = page->app.workspace().edition;
     const std::uint64_t now = page->app.workspace().edition;
@@ -104,14 +104,15 @@ const char* handed_out(std::string text) {
 
 }  // namespace
 
-// For scripts of the page; texts are UTF-8.
+// For scripts on the page. Texts are UTF-8.
 
-/// What --state writes, as JSON: the open lab's numbers, the handles with their pixels.
+/// The state that --state writes, as JSON: the open lab's numbers, and handles with their pixels.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_state() {
     return handed_out(tendril::app::page ? tendril::app::page->app.state().dump() : "null");
 }
 
-/// Runs a command as scripts do, its arguments a JSON object. Returns why it is refused, or an empty text.
+/// Runs a command with a JSON object of arguments. Returns the reason if it is refused, otherwise an empty
+/// text.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_run(const char* command, const char* arguments) {
     if (!tendril::app::page) return "the program has not started";
     try {

@@ -1,4 +1,6 @@
-#include "app/web/canvas_window.hpp"
+// The window of a web page: its element #canvas, with WebGL 2, keyboard, mouse and touch. One finger is the
+// left button; two fingers shift the view and zoom.
+#include "app/window/window.hpp"
 
 #include <emscripten/emscripten.h>
 #include <emscripten/html5.h>
@@ -10,7 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "app/io/text.hpp"
 #include "app/window/gl.hpp"
 
 namespace tendril::app {
@@ -18,8 +19,8 @@ namespace {
 
 constexpr const char* canvas = "#canvas";
 const char* const whole_page = EMSCRIPTEN_EVENT_TARGET_WINDOW;
-constexpr float pixels_per_notch = 100.0f, lines_per_notch = 3.0f;  ///< of a wheel, in today's browsers
-constexpr float zoom_per_notch = 1.1f;                              ///< fingers' distance, for one notch
+constexpr float pixels_per_notch = 100.0f, lines_per_notch = 3.0f;  ///< wheel, as browsers report it
+constexpr float zoom_per_notch = 1.1f;  ///< ratio of two fingers' distances that counts as a notch
 
 // clang-format off
 EM_JS(void, show_cursor, (const char* name), { document.getElementById("canvas").style.cursor = UTF8ToString(name); });
@@ -30,8 +31,8 @@ EM_JS(void, copy_text, (const char* text), {
 EM_JS(void, choose_any_file, (), { tendrilChoose(); });
 // clang-format on
 
-/// The key by the browser's name for it; a letter or digit by the layout's label. Unknown for a key without a
-/// name here.
+/// The key with the browser's name; letters and digits as the layout labels them. Unknown if Tendril has no
+/// name for it.
 Key named_key(const EmscriptenKeyboardEvent& event) {
     std::string_view name = event.key;
     if (name == " ") return Key::Space;
@@ -48,8 +49,8 @@ Key named_key(const EmscriptenKeyboardEvent& event) {
     return key_from_name(place).value_or(Key::Unknown);
 }
 
-/// Whether the key is the browser's: reload, full screen, tools, tabs, and pasting, whose text comes as an
-/// event.
+/// True if the browser handles the key: reload, full screen, tools, tabs, and paste, which arrives as an
+/// event with the text.
 bool is_for_browser(const EmscriptenKeyboardEvent& event) {
     const std::string_view name = event.key;
     if (name == "F5" || name == "F11" || name == "F12") return true;
@@ -106,10 +107,10 @@ class CanvasWindow final : public Window {
     glm::ivec2 size_{1}, pixels_{1};
     std::vector<Event> pending_;
     std::string clipboard_;
-    /// What the fingers do now.
+    /// Fingers on the canvas.
     enum class Fingers { None, One, Two };
     Fingers fingers_ = Fingers::None;
-    float apart_ = 1.0f;  ///< of two fingers, when the last notch was sent
+    float apart_ = 1.0f;  ///< distance of two fingers at the last wheel event, pixels
 };
 
 CanvasWindow* CanvasWindow::open = nullptr;
@@ -118,13 +119,12 @@ CanvasWindow::CanvasWindow() {
     EmscriptenWebGLContextAttributes wanted;
     emscripten_webgl_init_context_attributes(&wanted);
     wanted.majorVersion = 2;
-    wanted.antialias = false;  // the shaders do it
+    wanted.antialias = false;  // the shaders smooth edges
     wanted.alpha = false;
-    wanted.preserveDrawingBuffer = true;  // a frame in which nothing changes is not drawn again
+    wanted.preserveDrawingBuffer = true;  // unchanged frames are not redrawn
     context_ = emscripten_webgl_create_context(canvas, &wanted);
     if (context_ <= 0 || emscripten_webgl_make_context_current(context_) != EMSCRIPTEN_RESULT_SUCCESS)
         throw std::runtime_error("this browser has no WebGL 2");
-    emscripten_webgl_enable_extension(context_, "OES_texture_float_linear");
     fit_page();
     listen();
     open = this;
@@ -188,7 +188,7 @@ void CanvasWindow::listen() {
     emscripten_set_blur_callback(whole_page, this, EM_FALSE, on_focus);
     const auto on_touch = [](int kind, const EmscriptenTouchEvent* event, void* self) -> EM_BOOL {
         static_cast<CanvasWindow*>(self)->on_touch(kind, *event);
-        return EM_TRUE;  // else the browser makes a mouse of it
+        return EM_TRUE;  // otherwise the browser also sends mouse events
     };
     emscripten_set_touchstart_callback(canvas, this, EM_FALSE, on_touch);
     emscripten_set_touchmove_callback(canvas, this, EM_FALSE, on_touch);
@@ -201,7 +201,7 @@ void CanvasWindow::on_key(const EmscriptenKeyboardEvent& event, bool down) {
     if (key != Key::Unknown && !(down && event.repeat && key >= Key::Shift))
         pending_.emplace_back(KeyChange{key, down});
     if (!down || event.ctrlKey || event.metaKey) return;
-    // A key that types has the text as its name; others have words, of ASCII letters.
+    // A typing key's name is its text: one character. Other names are ASCII words.
     const std::string_view name = event.key;
     const bool one = !name.empty() && (name.size() == 1 || static_cast<unsigned char>(name[0]) >= 0x80);
     if (!one) return;
@@ -232,7 +232,7 @@ void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
     if (now != fingers_) {
         if (fingers_ == Fingers::One) press(MouseButton::Left, false);
         if (fingers_ == Fingers::Two) press(MouseButton::Middle, false);
-        // After two fingers the one that is left is not a new press.
+        // The finger that remains after two is not a new press.
         const bool presses = now == Fingers::Two || (now == Fingers::One && fingers_ == Fingers::None);
         move_to(static_cast<long>(at.x), static_cast<long>(at.y));
         if (presses) press(now == Fingers::One ? MouseButton::Left : MouseButton::Middle, true);
@@ -250,25 +250,23 @@ void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
 
 }  // namespace
 
-std::unique_ptr<Window> open_canvas() {
+// In place of GLFW's; the page decides the size.
+std::unique_ptr<Window> open_glfw_window(glm::ivec2) {
     return std::make_unique<CanvasWindow>();
 }
 
-std::unique_ptr<Window> open_glfw_window(glm::ivec2) {
-    return open_canvas();
-}
 std::unique_ptr<Window> open_hidden_window(glm::ivec2) {
     throw std::runtime_error("a page has no hidden window");
 }
 
 }  // namespace tendril::app
 
-/// The page has written a dropped file to `path`.
+/// Called by the page once it has stored a dropped file at `path`.
 extern "C" EMSCRIPTEN_KEEPALIVE void tendril_drop(const char* path) {
     if (auto* const window = tendril::app::CanvasWindow::open) window->drop(path);
 }
 
-/// The user has pasted.
+/// Called by the page when the user pastes.
 extern "C" EMSCRIPTEN_KEEPALIVE void tendril_paste(const char* text) {
     if (auto* const window = tendril::app::CanvasWindow::open) window->paste(text);
 }

@@ -1,4 +1,4 @@
-// The page around the program: files that are dropped, kept, downloaded or come with the address.
+// The page around the program: dropped files, downloads, settings in the browser's storage, scenes in the address.
 "use strict";
 
 const kept = "/home/web_user";  // lives in the browser's storage
@@ -11,7 +11,7 @@ function tendrilKeepFiles() {
     FS.syncfs(false, (error) => { if (error) console.warn(`settings are not kept: ${error}`); });
 }
 
-// Whatever the program saves is downloaded too, but for its settings and unsaved work.
+// Downloads each file that the program saves, except its settings and unsaved work.
 function tendrilDownload(path) {
     if (path.startsWith(`${kept}/.config/`)) return;
     const link = document.createElement("a");
@@ -21,7 +21,7 @@ function tendrilDownload(path) {
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// Writes a file that came from outside and has the program open it.
+// Stores a file from the user and opens it in the program.
 function handOver(name, bytes) {
     FS.mkdirTree("/files");
     const path = `/files/${name.replaceAll("/", "_")}`;
@@ -29,12 +29,20 @@ function handOver(name, bytes) {
     Module.ccall("tendril_drop", null, ["string"], [path]);
 }
 
-// The address holds the open lab's scene, so that it can be sent to others; a very large one does not fit.
+const longestAddress = 8000;  // bytes; what mail and chat programs pass on whole
+let addresses = 0;
+
+// The address holds the open lab's scene, so that it can be sent to others. A scene that does not fit leaves the address
+// without one, never with an older one.
 async function tendrilAddress(text) {
+    const turn = ++addresses;
     const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
     const packed = new Uint8Array(await new Response(stream).arrayBuffer());
-    const link = btoa(String.fromCharCode(...packed.subarray(0, 60000))).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-    if (packed.length < 60000) history.replaceState(null, "", `#scene=${link}`);
+    if (turn !== addresses) return;  // a newer scene is on its way
+    const fits = packed.length * 4 / 3 < longestAddress;
+    const base64 = fits ? btoa(String.fromCharCode(...packed)) : "";
+    const link = base64.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+    history.replaceState(null, "", fits ? `#scene=${link}` : location.pathname + location.search);
 }
 
 // "#scene=..." is a scene's text: deflated, in base64 with - and _ for + and /.
