@@ -6,6 +6,7 @@
 #include "rope_support.hpp"
 #include "tendril/rope/edit.hpp"
 #include "tendril/rope/quasi_static.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -143,6 +144,7 @@ TEST(RopeMemory, AStepWithoutMemoryLeavesAValidWorld) {
         const double left = 0.3 - static_cast<double>(state.substeps + state.dropped) * substep;
         const double pending = state == made.world.state() ? 0.0 : std::min(left, substep);
         ASSERT_NEAR(state.remainder, pending, 1e-9) << "allocation " << failures;
+        if (!whole && !is_sampled(static_cast<int>(failures))) continue;
         world = made.world;
         static_cast<void>(world.advance(0.3, workspace));
         ASSERT_TRUE(same_bits(world.state(), after.state())) << "allocation " << failures;

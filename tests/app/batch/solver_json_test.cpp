@@ -10,6 +10,7 @@
 #include <tendril/ik/active_limit.hpp>
 
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -58,7 +59,7 @@ TEST(SolverJson, AnglesAreSavedBitForBitAnyNumberOfTimes) {
     std::mt19937 random(7);
     constexpr float pi = std::numbers::pi_v<float>;
     std::uniform_real_distribution<float> any(-pi, pi), half(0.0f, pi);
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < test::rounds(20'000); ++i) {
         ik::Limit limit = ik::Limit::of(i % 2 == 0 ? ik::JointKind::Hinge : ik::JointKind::BallAndSocket);
         float low = any(random), high = i % 100 == 0 ? pi : any(random);
         if (low > high) std::swap(low, high);

@@ -11,6 +11,7 @@
 #include "tests/app/io/gltf_text.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -157,6 +158,7 @@ TEST(CharacterSkin, WrongNumbersAreRefusedWithTheirPath) {
          "nodes[2] is below itself");
 }
 
+LABEL(slow, "CharacterSkin.ThirdPartySkinsStayAroundTheirBones");
 TEST(CharacterSkin, ThirdPartySkinsStayAroundTheirBones) {
     namespace fs = std::filesystem;
     if (!fs::is_directory(tendril::test::characters_folder()))

@@ -308,7 +308,7 @@ TEST(ListReader, RefusesWhateverTheParserRefuses) {
     const std::string sound = R"([{"name":"a","lengths":[1,2.5],"x":"]}\"["},[],"t",null, {"b":{}}, -3])";
     std::mt19937 random(11);
     int taken = 0;
-    for (int i = 0; i < 30'000; ++i) {
+    for (int i = 0; i < test::rounds(30'000); ++i) {
         std::string text = sound;
         for (int changes = 1 + static_cast<int>(random() % 3); changes > 0; --changes) {
             const std::size_t at = random() % text.size();
@@ -327,7 +327,7 @@ TEST(ListReader, RefusesWhateverTheParserRefuses) {
         }
         taken += sane;
     }
-    EXPECT_GT(taken, 100);
+    EXPECT_GT(taken, test::rounds(100));
 }
 
 TEST(ListReader, ReportsTheLineOfAValue) {

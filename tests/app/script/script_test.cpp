@@ -1,6 +1,7 @@
 #include "app/io/json_complete.hpp"
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -169,7 +170,7 @@ TEST(Script, WithAnyByteChangedIsRefusedOrRead) {
         "[\"a\"]}\n";
     std::mt19937 random(9);
     int refused = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < test::rounds(20'000); ++i) {
         std::string changed = text;
         changed[random() % changed.size()] = static_cast<char>(random() % 256);
         const std::string message = refusal(changed);
@@ -177,7 +178,7 @@ TEST(Script, WithAnyByteChangedIsRefusedOrRead) {
         ASSERT_TRUE(message.empty() || message.starts_with("line ")) << message;
         ASSERT_FALSE(has(message, "json.exception"));
     }
-    EXPECT_GT(refused, 1000);
+    EXPECT_GT(refused, test::rounds(1000));
 }
 
 const Json state = parse_json(R"({
