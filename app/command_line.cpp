@@ -119,7 +119,7 @@ void SessionLine::add_to(CLI::App& line) {
         ->option_text("N");
     line.add_option("--screenshot", options.screenshot, "Write the final picture")->option_text("PNG");
     line.add_option("--state", options.state, "Write the final state")->option_text("JSON");
-    line.add_option("--record", options.record, "Record what is done as a script")->option_text("FILE");
+    line.add_option("--record", options.record, "Record your actions as a script")->option_text("FILE");
     line.add_flag("--force", options.force, "Replace files that exist; see app/README.md");
     line.add_flag("--no-config", no_config, "Do not read or write settings or kept bone maps");
     line.add_flag("--list-labs", labs, "Print the labs");
@@ -222,11 +222,12 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     CLI::Option* const clip =
         bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
     bake->add_flag("--all", options.all, "Every clip, each to a file of its own")->excludes(clip);
-    bake->add_option("--ground", options.ground, "What its feet stand on; default: none, feet uncorrected")
+    bake->add_option("--ground", options.ground,
+                     "The ground under its feet; default: none, feet not corrected")
         ->check(CLI::IsMember(bake_grounds()))
         ->option_text("KIND");
     bake->add_flag("--travel", options.travel,
-                   "A clip that walks in place travels, as its standing foot does");
+                   "A clip that walks in place travels at its standing foot's speed");
     bake->add_option("--fps", options.fps, "Frames per second, 1 to 1000; default: the clip's own")
         ->check(CLI::Range(1.0, 1000.0))
         ->option_text("N");
@@ -242,7 +243,7 @@ CLI::App* add_trace(CLI::App& line, TraceOptions& options) {
     const auto csv = trace->add_flag("--csv", options.csv, "Print rows of comma-separated values");
     trace->add_flag("--json", options.json, "Print one JSON array")->excludes(csv);
     ConventionChoice& choice = options.conventions;
-    trace->add_option("--up", choice.up, "The axis that is up, whatever the file says")
+    trace->add_option("--up", choice.up, "The up axis; overrides the file")
         ->check(CLI::IsMember(trace_ups.names()))
         ->option_text("y|z");
     trace->add_option("--handed", choice.handed, "The handedness of its axes")

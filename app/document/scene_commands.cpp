@@ -27,7 +27,7 @@ void add_file_commands(CommandTable& table) {
               });
     table.add("scene.save", "Save the scene to a file",
               {text_argument("path", false, "file to save to; default: the scene's own")},
-              "Saves the scene; a failure leaves the old file as it was", Effect::Look,
+              "Saves the scene; if that fails, the old file is unchanged", Effect::Look,
               [](Workspace& w, const Arguments& a) {
                   const std::filesystem::path path =
                       a.has("path") ? std::filesystem::path(a.text("path")) : w.path;

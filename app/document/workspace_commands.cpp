@@ -204,7 +204,7 @@ void add_window_commands(CommandTable& table) {
                       open = a.has("open") ? a.boolean("open") : !open;
                   });
     };
-    toggle("view.help", "Show keys and mouse", "Shows the keys and what the mouse does",
+    toggle("view.help", "Show keys and mouse", "Shows the keys and mouse actions",
            [](Workspace& w) -> bool& { return w.ui.help; });
     toggle("view.palette", "Find a command", "Finds a command by its name",
            [](Workspace& w) -> bool& { return w.ui.palette; });

@@ -129,7 +129,7 @@ bool FileDialog::list() {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
                                ImGuiSelectableFlags_AllowDoubleClick)) {
-            explain(entry.folder ? "Shows what is in this folder" : "Double click takes it at once");
+            explain(entry.folder ? "Shows what is in this folder" : "Double-click to choose it");
             continue;
         }
         if (entry.folder) {

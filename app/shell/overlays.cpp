@@ -254,9 +254,7 @@ void show_filming(const ShellFrame& frame, Emit& emit) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     text_elided("Writing " + filming->name, ImGui::GetContentRegionAvail().x);
-    explain(
-        "You can go on working while the video is written. It shows the scene as it was when you started "
-        "it.");
+    explain("You can keep working while the video is written. It shows the scene as it was at the start.");
     const float part = static_cast<float>(filming->done) / static_cast<float>(std::max(1, filming->frames));
     const bool all = filming->done == filming->frames;
     const std::string count =

@@ -180,14 +180,14 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
 }
 
 std::string Shortcuts::markdown() const {
-    std::string text = "| keys | what they do |\n| --- | --- |\n";
+    std::string text = "| keys | action |\n| --- | --- |\n";
     std::vector<std::string> done;
     for (const Shortcut& row : rows_) {
         if (std::find(done.begin(), done.end(), row.title) != done.end()) continue;
         done.push_back(row.title);
         text += "| " + all_keys_for(row) + " | " + row.title + " |\n";
     }
-    text += "\n| mouse | what it does |\n| --- | --- |\n";
+    text += "\n| mouse | action |\n| --- | --- |\n";
     for (const MouseHelp& help : mouse_help()) text += "| " + help.gesture + " | " + help.effect + " |\n";
     return text;
 }

@@ -39,7 +39,7 @@ class Window {
 
     virtual void set_cursor(Cursor) {}
     virtual void set_title(const std::string&) {}
-    /// Has the system ask for a file, which then comes as a Drop. False: the program asks with a dialog of its own.
+    /// Opens the system's file dialog; the chosen file arrives as a Drop. False: the program shows its own.
     virtual bool choose_file() { return false; }
     virtual std::string clipboard() = 0;
     virtual void set_clipboard(const std::string& text) = 0;

@@ -1,4 +1,4 @@
-// What reference.c prints, by the library itself.
+// Prints the same as reference.c, by the library itself.
 #include <cstdio>
 #include <cstring>
 #include <tendril/ik/solver.hpp>

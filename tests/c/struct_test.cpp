@@ -133,7 +133,7 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
                             read[axis] == static_cast<double>(static_cast<float>(given[axis])));
         }
         if (field.choices == nullptr && field.whole && field.high == 1.0)
-            continue;                          // a flag takes any number
+            continue;                          // a flag takes any whole number
         if (std::isinf(field.high)) continue;  // a refused solve's residual
         const double beyond[4] = {field.high * 2.0 + 1.0, 0.0, 0.0, field.high + 1.0};
         EXPECT_EQ(tendril_set(kind, object, field.name, beyond, &error), TENDRIL_INVALID_ARGUMENT);

@@ -260,7 +260,7 @@ class Judge {
             normalise(nodes_, none, 1.0, turn);
             character_.notes.push_back(std::string("The zero pose stands along ") + name(*rest_up_) +
                                        ", the motion along " + name(up_) +
-                                       "; the rest pose is turned to stand as the motion does.");
+                                       "; the rest pose is rotated to stand like the motion.");
             return;
         }
         const auto neutral = [&](const Look& each) {

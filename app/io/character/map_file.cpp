@@ -38,7 +38,7 @@ void read_bones(const Json& json, SavedMap& map) {
         const std::string node = node_name(value, where);
         if (node.empty()) continue;
         if (const auto [other, is_new] = taken.emplace(node, key); !is_new)
-            throw std::runtime_error(where + ": its node is already that of " + other->second);
+            throw std::runtime_error(where + ": its node already belongs to " + other->second);
         map.bones[static_cast<std::size_t>(*bone)] = node;
     }
 }

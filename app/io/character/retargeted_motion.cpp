@@ -37,9 +37,9 @@ std::string what_stays(const humanoid::Retargeted& made, const humanoid::Skeleto
     if (!made.left_out.empty()) parts.push_back("Not on this character: " + bone_names(made.left_out) + '.');
     if (!made.at_rest.empty()) parts.push_back("At rest: " + bone_names(made.at_rest) + '.');
     if (made.helpers.size() > few)
-        parts.push_back("Left as they are: " + std::to_string(made.helpers.size()) + " helper nodes.");
+        parts.push_back("Not retargeted: " + std::to_string(made.helpers.size()) + " helper nodes.");
     else if (!made.helpers.empty())
-        parts.push_back((made.helpers.size() == 1 ? "Left as it is: " : "Left as they are: ") +
+        parts.push_back("Not retargeted: " +
                         comma_list(names(made.helpers, [&](std::size_t i) { return skeleton[i].name; })) +
                         '.');
     return parts.empty() ? "Every bone was retargeted." : joined(parts);

@@ -169,7 +169,7 @@ void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 
 /// Selects control points instead of joints.
 void select_controls(ChainPart& part, const Arguments& given, bool add) {
-    if (part.mode != ChainMode::Curve) throw Refused("control points are those of mode curve");
+    if (part.mode != ChainMode::Curve) throw Refused("only mode curve has control points");
     if (given.has("index") || given.has("joints") || given.has("point"))
         throw Refused("joints and control points cannot be selected together");
     const std::size_t count = part.curve.points.size();
@@ -262,7 +262,7 @@ void add_mode_commands(CommandTable& table) {
         {index_argument(false, "which joint; if all are omitted, nothing is selected"), joints_argument(),
          switch_argument("add",
                          "true: adds to the selection, or with index removes one that is already in it"),
-         choice_argument("point", false, "what is selected instead of joints", chain_points.names()),
+         choice_argument("point", false, "selects this instead of joints", chain_points.names()),
          offering(
              index_argument("control", false, "which control point, instead of joints", max_control_points),
              [](const Workspace& w) {

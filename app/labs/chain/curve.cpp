@@ -169,8 +169,8 @@ std::string jump_cause(const ChainPart& before, const ChainPart& after) {
     const std::size_t joint = *after.along.report->jumped;
     const std::string bone = "bone " + std::to_string(joint - 1) + "'s length away";
     return after.along.memory.at[joint] > before.along.memory.at[joint]
-               ? "the curve turns back here before it is " + bone + "; the joint went on to where it is"
-               : "the curve is " + bone + " earlier than before; the joint went back to there";
+               ? "the curve turns back here before it is " + bone + "; the joint jumped to the next crossing"
+               : "the curve is " + bone + " earlier than before; the joint jumped back to that crossing";
 }
 
 // The command and the file.

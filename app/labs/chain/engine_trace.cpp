@@ -383,7 +383,7 @@ void add_trace_commands(CommandTable& table) {
          text_argument("chain", false, "one of several; default: the first in which something was found")});
     Command command = chain_command(
         "chain.trace", "Show an engine's trace", std::move(arguments),
-        "Shows what an engine's chain did, frame by frame, with what went wrong and why", ChainChange());
+        "Shows an engine's chain frame by frame, with each incident and its cause", ChainChange());
     command.apply = open_trace;
     table.add(std::move(command));
 }

@@ -53,7 +53,7 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     if (ImGui::IsItemHovered())
         tooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
                        : "Click selects this joint. bone: the length of the bone that leads to it; "
-                         "error: how far that is from what it should be");
+                         "error: its difference from the stored length");
     const auto column = [](const std::string& text) {
         ImGui::TableNextColumn();
         text_flush_right(text);
@@ -212,7 +212,8 @@ void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Em
     if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3)
         emit("chain.limit", of_joints(joints, {{"axis", units[axis]}}));
     explain(
-        "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it alone.");
+        "The axis of upward rotation, in world axes with the chain straight; a hinge turns only about this "
+        "axis.");
 }
 
 /// "Joint 2 is at 43°; straight is 0°."

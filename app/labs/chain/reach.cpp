@@ -313,7 +313,7 @@ std::string degrees_text(const ik::ActiveLimit& limit, float angle) {
 
 const char* solver_help(ik::Method method) {
     static constexpr const char* texts[] = {
-        "Forward and backward reaching, and a step that takes the bend out near full reach.",
+        "Forward and backward reaching, and a step that straightens the chain near full reach.",
         "As published in 2011. Crawls near full reach and stalls at a collinear singularity.",
         "Rotates one joint after another so that the tip points at the target.",
         "Rotates all joints along the gradient, by the best step.",

@@ -125,8 +125,8 @@ std::span<const FieldText> field_texts<ik::Limit>() {
          .listed = true,
          .choices = joint_kinds.rows},
         {.name = "axis",
-         .help = "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it "
-                 "alone."},
+         .help = "The axis of upward rotation, in world axes with the chain straight; a hinge turns only "
+                 "about this axis."},
         {.name = "min",
          .label = "minimum",
          .help = "The smallest angle of a hinge about its axis; 0 is straight.",

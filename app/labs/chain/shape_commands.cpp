@@ -181,12 +181,11 @@ void add_shape_commands(CommandTable& table) {
                             "Removes the selected joints, or the selected control points", remove_selected));
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
-    table.add(
-        chain_command("chain.set_length", "Set the length of bones",
-                      {length_argument(),
-                       index_argument(false, "which joint; its length is that of the bone that leads to it"),
-                       joints_argument()},
-                      "Sets the length of the bones that lead to joints", set_length));
+    table.add(chain_command(
+        "chain.set_length", "Set the length of bones",
+        {length_argument(), index_argument(false, "which joint: the bone before it gets the length"),
+         joints_argument()},
+        "Sets the length of the bones that lead to joints", set_length));
     table.add(chain_command(
         "chain.preset", "Open a chain preset",
         {choice_argument("name", true, "which chain",

@@ -44,9 +44,7 @@ std::span<const FieldText> field_texts<HumanoidView>() {
          .choices = limits_shown.rows},
         {.name = "judged",
          .label = "judge",
-         .help =
-             "The clip with its fixes alone, or the result that is shown and exported, with everything that "
-             "IK does to it",
+         .help = "The clip with only its fixes, or the result after IK, which is shown and exported",
          .listed = true,
          .choices = judged_clips.rows},
         {.name = "follow",
@@ -82,7 +80,7 @@ void add_humanoid_look_commands(CommandTable& table) {
         "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
-        "Sets how the character is shown; anything omitted stays as it is",
+        "Sets how the character is shown; omitted settings are kept",
         [](HumanoidPart& part, const Arguments& given) { set_fields(given, part.view); }, Effect::Look));
     table.add(flip_command<HumanoidPart>(humanoid_lab, "humanoid.flips"));
     table.add(

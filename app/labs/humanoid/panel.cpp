@@ -441,7 +441,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     for (const Attachment& each : part.attachments.list)
         if (const std::size_t torn = torn_edges(part.attachments, each); torn > 0)
             return {'"' + each.name + "\" is torn at " + count_text(torn, "edge"), Verdict::Kind::Bad,
-                    "The body holds it, and moves on. Remove it, and attach it anew."};
+                    "It is stuck in the body. Remove it and attach it again."};
     const auto mapped =
         std::ranges::count_if(part.map->bones, [](const auto& each) { return each.node >= 0; });
     const bool all = mapped == static_cast<std::ptrdiff_t>(humanoid::bone_count);

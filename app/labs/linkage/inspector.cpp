@@ -42,8 +42,8 @@ void motor_rows(const Workspace& workspace) {
     if (!std::isfinite(now) || !worst) return;
     reading("transmission angle", "%.1f degrees", now);
     explain(
-        "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 poorly, at 0 it is "
-        "at a dead point.");
+        "Between the coupler and the link it moves: near 90 degrees it pushes well, below 40 poorly, at 0 "
+        "not at all (dead point).");
     const char* const judged = worst->degrees < 0.5                 ? ", dead point"
                                : worst->degrees < poor_transmission ? ", poor"
                                                                     : "";
@@ -60,12 +60,12 @@ void freedom_rows(const LinkagePart& part) {
     const ik::LinkageFreedom freedom = freedom_of(part);
     reading("in this pose", "%d", freedom.actual);
     explain(
-        "Counted from the equations as they are here: what really can move, motors left out. What floats has "
-        "three in the plane, two to shift and one to turn.");
+        "Counted from the equations in this pose, without motors. A floating piece has three in the plane: "
+        "two to shift, one to turn.");
     reading("Gruebler's count", "%d", freedom.counted);
     explain(
-        "Three for each link, less two for each joint, by number alone: it misses redundant joints, and "
-        "poses where bars are in line.");
+        "Three per link minus two per joint. Counting alone misses redundant joints, and poses where bars "
+        "are in line.");
     reading("loop error", "%s", error_text(part.result.report.closed_to).c_str());
     explain("The largest distance between two points that should be one; none: less than 0.01 mm.");
 }
@@ -135,11 +135,11 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     bar_rows(part, *at, emit);
     const ik::SketchHold hold = part.shape->sketch.points[*at].hold;
     const bool pinned = hold == ik::SketchHold::Pinned, guided = hold == ik::SketchHold::Guided;
-    if (row_option("Free", 3, !pinned && !guided, "Nothing but its bars holds it"))
+    if (row_option("Free", 3, !pinned && !guided, "Held only by its bars"))
         emit("linkage.pin", {{"point", part.selected}, {"on", false}});
-    if (row_option("Pinned", 3, pinned, "The ground holds it where it is"))
+    if (row_option("Pinned", 3, pinned, "Pinned to the ground"))
         emit("linkage.pin", {{"point", part.selected}, {"on", true}});
-    if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
+    if (row_option("Slides", 3, guided, "Slides on a line through its position"))
         emit("linkage.guide", {{"point", part.selected}});
     end_row();
     pair_motor_rows(*part.shape, *at, emit);

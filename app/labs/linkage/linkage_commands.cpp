@@ -398,7 +398,7 @@ void add_linkage_commands(CommandTable& table) {
                               remove_target));
     table.add(linkage_command("linkage.drag", "Drag a point of the linkage",
                               {linkage_point_argument("point", true, "which point"), to},
-                              "Moves a point as the mouse does: drivers follow until it is let go", drag));
+                              "Drags a point as the mouse does: drivers follow until it is released", drag));
     table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
     table.add(and_then(
         linkage_command("linkage.other_mode", "Switch to another assembly mode",

@@ -402,15 +402,14 @@ std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime) {
     if (drive->rate != 0.0) {
         const CommandCall back = motor_call(part, joint, in_degrees(part, joint, -drive->rate));
         ways.push_back({"Turn back",
-                        "Runs the motor the other way: the linkage goes back as it came",
+                        "Reverses the motor: the linkage returns the way it came",
                         {back},
-                        "Back as it came"});
+                        "Back the way it came"});
         ways.push_back(
             {"Other mode",
-             "Runs the motor the other way with the bars assembled the other way: the linkage goes "
-             "on through the dead point",
+             "Reverses the motor in the other assembly mode: the linkage continues through the dead point",
              {{"linkage.other_mode", {{"nearest", true}}}, back},
-             "On, past the dead point"});
+             "Through the dead point"});
     }
     const std::vector<ik::SketchMotor>& motors = part.shape->sketch.motors;
     const auto motor = std::ranges::find(motors, joint, &ik::SketchMotor::name);

@@ -75,7 +75,8 @@ Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool p
                     "No pose was found that brings the point to its target."};
         case IterationLimit:
             return {"Not solved yet", Verdict::Kind::Open,
-                    goes_on(part) ? "It goes on while time passes." : "The solver ran out of iterations."};
+                    goes_on(part) ? "It continues while the simulation runs."
+                                  : "The solver ran out of iterations."};
         case InvalidInput:
             return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
         case Reached:
@@ -175,7 +176,8 @@ void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
 void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
     const auto range = std::ranges::find(part.shape->ranges, joint, &LinkageRange::joint);
     if (range == part.shape->ranges.end()) {
-        if (row_button(("Limit " + joint).c_str(), 1, true, "Gives the joint a range about where it is")) {
+        if (row_button(("Limit " + joint).c_str(), 1, true,
+                       "Adds a range around the joint's present value")) {
             const double now = in_degrees(part, joint, part.value_of(joint)),
                          about = turns(part, joint) ? 45.0 : 0.5;
             emit("linkage.range", {{"joint", joint}, {"min", now - about}, {"max", now + about}});
@@ -204,9 +206,8 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
     const bool runs = std::ranges::any_of(part.drives, is_running), stands = stalled_motor(part) != nullptr,
                playing = workspace.clock.playing;
     const std::string title = motor_button(part, playing);
-    if (row_button(
-            title.c_str(), 1, !part.drives.empty(),
-            "Runs the motor while time passes, or stops it there. Where it cannot go on it turns back")) {
+    if (row_button(title.c_str(), 1, !part.drives.empty(),
+                   "Runs the motor with the simulation, or stops it. If it cannot continue, it turns back")) {
         for (const LinkageDrive& each : part.drives)
             if (stands && is_running(each))
                 run_at(part, each.joint, in_degrees(part, each.joint, -each.rate), emit);

@@ -134,7 +134,7 @@ std::optional<Incident> jump_incident(const LinkagePart& before, const LinkagePa
                     .joint = 0,
                     .name = is->point,
                     .cause = is->point + " jumped " + app::length_text(report.jump) +
-                             ": where it was is no longer the place nearest to its target, which moved " +
+                             ": its old position is no longer the nearest to its target, which moved " +
                              app::length_text(asked)};
 }
 
@@ -182,7 +182,7 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
              .name = joint,
              .degrees = turns(after, joint) ? static_cast<float>(glm::degrees(is.stopped_at)) : 0.0f,
              .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
-                      "it cannot go on beyond " + value_text(after, joint, is.stopped_at) +
+                      "it cannot move past " + value_text(after, joint, is.stopped_at) +
                       (reason.empty() ? "" : ", for " + reason),
              .buttons = ways_on(after, runtime)});
     } else if (is.status == Open && was.status != Open) {

@@ -313,7 +313,7 @@ void set_bar_length(LinkageSketch& sketch, std::size_t index, double wanted) {
     if (solver.solve(state, {{&grow, 1}, {}}).status != ik::LinkageStatus::Reached)
         throw Refused("bar \"" + bar.name + "\" gets to " +
                       app::length_text(now + state.joints[link + 1].value) +
-                      " with the others as they are, not " + app::length_text(wanted));
+                      " while the others keep their lengths, not " + app::length_text(wanted));
     for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(solver.point(i));
 }
 
@@ -344,7 +344,7 @@ void add_sketch_commands(CommandTable& table) {
     std::vector<Argument> line = field_arguments(guide_fields(), field_texts<ik::SketchPoint>());
     line.insert(line.begin(), point);
     table.add(sketch_command("linkage.guide", "Slide a joint on a line", std::move(line),
-                             "Holds a joint on a straight line through where it is", guide));
+                             "Keeps a joint on a straight line through its position", guide));
     table.add(sketch_command("linkage.move", "Move a joint of the drawing", {point, place_argument("to")},
                              "Puts a joint somewhere else: its bars change their lengths", move));
     table.add(sketch_command(

@@ -158,9 +158,8 @@ void pending_rows(const RigPanel& panel, std::size_t element) {
         "pending", rig::name(pending),
         "An element stores a local and a global transform. Writing one makes the other pending, along with "
         "the global ones of all elements below. A pending one is worked out when something reads it.");
-    if (row_button(
-            selected.several() ? "Read them" : "Read it", 2, true,
-            "Works out what is pending from here up to the root, and says how many transforms that took"))
+    if (row_button(selected.several() ? "Read them" : "Read it", 2, true,
+                   "Computes the pending transforms from here up to the root, and says how many there were"))
         panel.emit("rig.read", {which(panel.part, selected.all())});
     end_row();
 }

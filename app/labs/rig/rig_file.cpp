@@ -199,8 +199,7 @@ RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigP
     if (!element || !element->control || !can_walk(element->control->kind))
         place.fail("there is no transform or position control of that name");
     const RigWalk walk{control, load_motion(place), place["turn"].flag()};
-    if (walk.motion.path == Motion::Path::Still)
-        place["path"].fail("a control that stands still has no motion");
+    if (walk.motion.path == Motion::Path::Still) place["path"].fail("a control without a path has no motion");
     try {
         check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
     } catch (const std::invalid_argument& error) {

@@ -371,8 +371,8 @@ void add_clip_commands(CommandTable& table) {
                               part.clip_left.reset();
                           }));
     table.add(rig_command("rig.clip.solve", "Solve the clip backward", {},
-                          "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
-                          "cannot express; a few frames per tick",
+                          "Solves the clip backward, frame by frame, and marks frames on the timeline that "
+                          "the rig cannot express; a few frames per tick",
                           [](RigPart& part, const Arguments&) { start_clip_solve(part); }));
     table.add(rig_command("rig.clip.cancel", "Stop the backward solve", {},
                           "Stops the backward solve of the clip", cancel_clip));

@@ -172,7 +172,8 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
         emit("rig.motion",
              {which(part, controls), {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     explain(
-        "The control follows a horizontal path from where it is. Dragging it stops that and starts a take");
+        "The control follows a horizontal path from its position. Dragging it ends the path and starts a "
+        "take");
     if (!walks) return;
     walk_fields(part, controls, *walk, emit);
     if (!workspace.clock.playing) note("Paused: press Space to let it walk.");

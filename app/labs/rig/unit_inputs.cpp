@@ -402,7 +402,7 @@ constexpr Help helps[] = {
     {"", "direction",
      "A direction in the transform's own space. The result is turned with it and keeps its length."},
     {"", "roots", "Where the for-each begins: its units run on each element from here down."},
-    {"", "include_parent", "On, the units run on the root itself too. Off, only on what is below it."},
+    {"", "include_parent", "On: the units also run on the root. Off: only on the elements below it."},
     {"", "recursive", "On, the units run on everything below the root. Off, only on its children."},
     {"", "map_range", "First step: maps the in range to the out range, beyond its ends too."},
     {"", "in_range", "The range that is mapped. Only with map range."},
@@ -420,7 +420,7 @@ constexpr Help helps[] = {
      "How many times a second the spring would swing without damping. Higher follows faster."},
     {"", "critical_damping",
      "How soon swinging stops: 0 swings for ever, 1 is the fastest that does not overshoot."},
-    {"", "force", "A push on what the spring moves: shifts where it comes to rest. None: no push."},
+    {"", "force", "A force on the value: shifts its rest position. None: no force."},
     {"", "target_velocity_amount",
      "How much of the target's velocity the spring takes into account, from 0 to 1: at 1 it follows steady "
      "motion without lag."},

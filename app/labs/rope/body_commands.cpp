@@ -361,8 +361,7 @@ void adding_rows(const Workspace& workspace, Emit& emit) {
         emit("rope.select",
              body ? ArgumentList{{"rope", name}, {"particle", 0}} : ArgumentList{{"collider", name}});
     };
-    if (row_button("Rope", 3, true,
-                   "A rope that hangs between two pins; how long it is stands in the inspector")) {
+    if (row_button("Rope", 3, true, "A rope between two pins; set its length in the inspector")) {
         const glm::vec3 at = free_place(workspace, {{-0.6f, -0.1f, -0.1f}, {0.6f, 0.6f, 0.1f}});
         add(true, "rope.add", "rope",
             {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},

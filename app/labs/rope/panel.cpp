@@ -105,7 +105,7 @@ void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
     if (now.solver != rope::Solver::Relaxation) settings.row("compliance");
     const bool races = !part.rivals.empty();
     if (row_button(races ? "End the race" : "Race the solvers", 1, true,
-                   races ? "Goes on with this solver alone"
+                   races ? "Continues with this solver only"
                          : "Runs the scene by each solver, side by side with one camera: drags and commands "
                            "change all of them"))
         emit("rope.race", {{"on", !races}});
@@ -275,7 +275,7 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
         glm::vec3 at = was;
         if (point_field("at", at, 0.01f))
             emit.continuously("rope.move", {{"rope", world.name(body)}, {"by", at - was}});
-        explain("The middle of its pins, or of all of it without any. Moves it as it is, with its pins.");
+        explain("The middle of its pins or, without any, of its particles. Moves all of it, with its pins.");
     }
     const auto which = [&] {
         return ArgumentList{{"rope", world.name(body)}, {"particles", SharedJson(Json(all))}};
@@ -316,7 +316,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
     if (point_field("swings by", by, 0.01f))
         emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}});
-    explain("How far the collider swings to each side of where it is. With 0, 0, 0 it stands still.");
+    explain("How far the collider swings to each side. 0, 0, 0: it does not swing.");
     if (swings) FieldRows(*found, "rope.collider.swing", emit, {{"name", name}}).row("period");
     const FieldRows drive(collider.drive, "rope.collider.drive", emit, {{"name", name}});
     drive.rows("velocity", "spin");

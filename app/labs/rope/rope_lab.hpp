@@ -55,7 +55,7 @@ class RopeLab final : public Lab {
     std::string title() const override { return "Rope"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    std::string invitation(const Workspace&) const override { return "Drag a rope, or what it lies on."; }
+    std::string invitation(const Workspace&) const override { return "Drag a rope or a collider."; }
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

@@ -210,7 +210,7 @@ inline constexpr double min_jitter_frame = 0.001, max_jitter_frame = 0.25;  ///<
 inline constexpr EnumNames<RopeTool, 4> rope_tools{
     "tool",
     {{"move", "Select", "A click selects: the inspector then shows the settings."},
-     {"pin", "Pin", "A click on a particle pins it where it is, or lets a pinned one move again."},
+     {"pin", "Pin", "A click on a particle pins or unpins it."},
      {"cut", "Cut",
       "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a cloth."},
      {"tie", "Tie", "A click on one particle and then on another ties the two."}}};

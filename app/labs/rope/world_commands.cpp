@@ -314,7 +314,7 @@ void add_look_commands(CommandTable& table) {
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
         "rope.tool", "Choose the click action", {choice_argument("name", true, "which", rope_tools.names())},
-        "Sets what a click in the scene does",
+        "Sets the click action in the scene",
         [](RopeEdit& edit, const Arguments& given) {
             edit.part.tool = rope_tools.value(given.text("name"));
             // A particle selected for another purpose is not the end of a tie.

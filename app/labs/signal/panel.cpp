@@ -62,7 +62,7 @@ void input_section(const SignalPart& part, Emit& emit) {
     std::string path = input.path;
     if (text_field("CSV file", path, "path, Enter opens it"))
         emit("signal.input", {{"kind", "csv"}, {"path", path}});
-    explain("A file whose rows become the input, over and over. Enter opens it.");
+    explain("A file whose rows become a looping input. Enter opens it.");
     note(input_kinds.help(input.kind));
 }
 
@@ -329,7 +329,7 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     const PanelSection ids("Fit");
     if (part.recording) {
         note(
-            "Drag the blue ball the way the output should move. The input starts when you grab it; the "
+            "Drag the blue ball as the output should move. The input starts when you grab it; the "
             "recording ends when you let go.");
         if (row_button("Stop", 1, true, "Stops recording; what was recorded is kept"))
             emit("signal.fit.stop");

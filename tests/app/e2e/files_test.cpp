@@ -205,7 +205,7 @@ TEST_F(MissingCharacter, IsReportedInThePanelAndConfirmedBeforeItIsOverwritten) 
     };
     program.workspace().outputs.in_window = true;
     program.run({"scene.open", app::Json{{"path", scene_}}});
-    EXPECT_TRUE(says(settled_text(600), "hero.bvh is missing keeps what the scene has"));
+    EXPECT_TRUE(says(settled_text(600), "hero.bvh is missing keeps old contents"));
     save();
     EXPECT_EQ(app::parse_json(read(scene_)).at("labs"), app::parse_json(text_).at("labs"));
     const std::string before = read(scene_);

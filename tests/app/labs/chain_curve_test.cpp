@@ -152,7 +152,7 @@ TEST_F(ChainCurve, AJumpIsAnIncidentWithItsCause) {
     }
     ASSERT_FALSE(all.empty());
     EXPECT_EQ(std::string(name(all.front().kind)), "jump");
-    EXPECT_TRUE(test::says(all.front().cause, "the joint went"));
+    EXPECT_TRUE(test::says(all.front().cause, "the joint jumped"));
     EXPECT_GT(least, 0.15f);
     EXPECT_TRUE(moved(loop(0.2)).empty()) << "a curve at rest does not jump";
 }

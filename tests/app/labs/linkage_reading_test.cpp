@@ -75,7 +75,7 @@ TEST_F(LinkageReading, EveryCureForADeadPointWorks) {
     EXPECT_EQ(motor_button(part()), "Stop");
     wait(30);
     EXPECT_NEAR(driver("crank"), stopped - 45.0, 2.0);
-    EXPECT_EQ(meets_left(), left) << "back as it came";
+    EXPECT_EQ(meets_left(), left) << "back the way it came";
     stall();
     take("Other mode");
     wait(30);

@@ -126,7 +126,7 @@ TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].kind, Incident::Kind::Jump);
     EXPECT_EQ(all[0].name, "P");
-    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"));
+    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the nearest moved 50.0 mm"));
     // The same distance in one move, from the target's old position, is not a jump.
     run("linkage.let_go");
     EXPECT_TRUE(incidents_of("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1).empty());

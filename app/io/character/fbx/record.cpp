@@ -147,7 +147,7 @@ class BinaryRecords final : public RecordReader {
             Head head = take_head();
             if (head.end == 0) {  // the end of a record's contents, or of the file
                 if (!inside()) break;
-                if (at_ != end()) fail("a record that does not end where it says");
+                if (at_ != end()) fail("a record whose contents do not end at its stated end");
                 close();
                 continue;
             }
@@ -211,7 +211,7 @@ class BinaryRecords final : public RecordReader {
             }
             head.record.properties.push_back(property());
         }
-        if (at_ != end) fail("properties that do not end where they say");
+        if (at_ != end) fail("properties that do not end at their stated end");
     }
     /// Skips to the end of the record: the length of an unknown kind of property is not known.
     void skip_unknown(std::string_view name, std::size_t end) {

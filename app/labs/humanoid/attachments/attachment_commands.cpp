@@ -180,8 +180,7 @@ void add_attachment_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.wind", "Set the character's wind",
         field_arguments(wind_fields(), wind_texts()),
-        "Sets the wind that ropes, hair and cloth on the character are in; anything omitted stays as it is",
-        set_wind));
+        "Sets the wind on the character's ropes, hair and cloth; omitted settings are kept", set_wind));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
         {offering(text_argument("name", true, "of the attachment"),
@@ -256,7 +255,7 @@ void attachment_rows(const HumanoidPanel& panel) {
     note("Order in each tick: clip, curves, IK, rig, springs, ropes.");
     explain(
         "Curves bend the clip's pose. Feet, targets and hands are IK; look-at, the rig's Aim, and springs "
-        "follow. Ropes, hair and cloth come last, and lie on the body as it is then.");
+        "follow. Ropes, hair and cloth come last, and lie on the resulting pose.");
     for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     HumanoidRuntime::Panel& kept = panel.runtime.panel;
     const auto titles = attachment_kinds.titles();

@@ -607,18 +607,18 @@ void add_humanoid_file_commands(CommandTable& table) {
               "Writes a clip with everything that IK does to it; says how close the file comes, and "
               "what Motion lint finds in it",
               Effect::Look, export_shown);
-    table.add(
-        {.name = "humanoid.cure",
-         .title = "Fix faults in a clip",
-         .arguments = {choice_argument("kind", false, "of fault; all if omitted", fault_names()),
-                       node_argument("node", false, "of the skeleton; all if omitted"),
-                       integer_argument("frame", "of the clip's own frames; all if omitted", 0,
-                                        humanoid::max_lint_frames),
-                       clip_argument("clip", "which one; default: the chosen one, or the first")},
-         .help = "Fixes what Motion lint has found in a clip, without a new fault; says what is left and why",
-         .effect = Effect::Edit,
-         .apply = cure_clip,
-         .finish = finish_loading});
+    table.add({.name = "humanoid.cure",
+               .title = "Fix faults in a clip",
+               .arguments = {choice_argument("kind", false, "of fault; all if omitted", fault_names()),
+                             node_argument("node", false, "of the skeleton; all if omitted"),
+                             integer_argument("frame", "of the clip's own frames; all if omitted", 0,
+                                              humanoid::max_lint_frames),
+                             clip_argument("clip", "which one; default: the chosen one, or the first")},
+               .help = "Fixes the faults that Motion lint found in a clip without adding any; says which are "
+                       "left and why",
+               .effect = Effect::Edit,
+               .apply = cure_clip,
+               .finish = finish_loading});
 }
 
 }  // namespace tendril::app

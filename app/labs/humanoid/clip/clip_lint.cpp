@@ -324,7 +324,7 @@ void progress_row(const HumanoidPanel& panel, const char* command) {
 }
 
 static void findings_rows(const HumanoidPanel& panel) {
-    if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
+    if (!panel.part.clip()) return note("Choose a clip to see its faults.");
     FieldRows(panel.part.view, "humanoid.view", panel.emit).rows("judged");
     const humanoid::LintReport* report = panel.runtime.lint.report(panel.part, panel.runtime.solvers);
     if (!report) {

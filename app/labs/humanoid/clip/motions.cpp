@@ -103,8 +103,8 @@ void load_motion(Workspace& workspace, const Arguments& given) {
 void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
     more.add("motion", {"humanoid.motion.load", {"path"}}, false, [&panel] {
         if (row_button("Load motion", 1, true,
-                       "Chooses a file with a motion of another character. Its first clip is carried over by "
-                       "the two bone maps, with the feet on the ground where the other's are."))
+                       "Chooses a file with a motion of another character. Its first clip is retargeted "
+                       "through the two bone maps; feet stand where the other's do."))
             panel.emit("scene.open_dialog", {{"by", "humanoid.motion.load"}});
         end_row();
     });

@@ -316,8 +316,7 @@ std::span<const FieldText> field_texts<Playback>() {
          .more = true},
         {.name = "loop",
          .label = "Loop",
-         .help =
-             "Plays the clip over and over; a walk carries on from where it is. Off: it stops at the end.",
+         .help = "Loops the clip; a walk continues from where it ended. Off: stops at the end.",
          .more = true},
         {.name = "in_place",
          .label = "In place",
@@ -325,9 +324,8 @@ std::span<const FieldText> field_texts<Playback>() {
          .more = true},
         {.name = "travel",
          .label = "Travel",
-         .help =
-             "A clip that walks in place goes along at the speed of its standing foot, so that it can climb "
-             "stairs and slopes. One that travels already stays as it is.",
+         .help = "A clip that walks in place travels at its standing foot's speed, so that it can climb "
+                 "stairs and slopes. A clip that already travels does not change.",
          .more = true},
         {.name = "targets_travel",
          .label = "Targets travel",
@@ -425,7 +423,7 @@ void add_clip_commands(CommandTable& table) {
     for (Argument& each : field_arguments<Playback>()) arguments.push_back(std::move(each));
     Command clip = part_command<HumanoidPart>(
         humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
-        "Chooses a clip, its time and how it plays; anything omitted stays as it is", set_clip);
+        "Chooses a clip, its time and how it plays; omitted settings are kept", set_clip);
     table.add(followed(std::move(clip)));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.play", "Play or pause the clip",

@@ -218,11 +218,10 @@ void add_bone_curve_commands(CommandTable& table) {
              "begins with points through the pose"},
         switch_argument("on", "false: removes the curve")};
     for (Argument& each : field_arguments<CurveShape>()) arguments.push_back(std::move(each));
-    table.add(
-        ik_command("humanoid.curve", "Bend a tail or spine", std::move(arguments),
-                   "Bends a chain of bones along a curve, after the clip and before IK; anything omitted "
-                   "stays as it is",
-                   set_bone_curve));
+    table.add(ik_command(
+        "humanoid.curve", "Bend a tail or spine", std::move(arguments),
+        "Bends a chain of bones along a curve, after the clip and before IK; omitted settings are kept",
+        set_bone_curve));
 }
 
 }  // namespace tendril::app

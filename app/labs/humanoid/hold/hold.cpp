@@ -208,9 +208,9 @@ void add_hold_commands(CommandTable& table) {
     arguments.push_back(to);
     arguments.push_back(rotation);
     table.add(ik_command("humanoid.hold", "Hold an object", std::move(arguments),
-                         "Puts the hands on an object; anything omitted stays as it is", set_hold));
+                         "Puts the hands on an object; omitted settings are kept", set_hold));
     table.add(ik_command("humanoid.hold_move", "Move the held object", {to, rotation},
-                         "Asks the held object to be somewhere; it gives way where the arms cannot follow",
+                         "Sets the requested pose of the held object; it yields where the arms cannot follow",
                          move_hold));
     table.add(ik_command("humanoid.release", "Let go of the object", {}, "Takes the hands off the object",
                          release_hold));

@@ -41,7 +41,7 @@ std::span<const FieldText> field_texts<HoldSetting>() {
          .choices = holding_hands.rows},
         {.name = "with_body",
          .label = "Goes with the body",
-         .help = "The object goes with the hips. Off: it stays where it is in space."}};
+         .help = "The object moves with the hips. Off: it stays in place."}};
     return texts;
 }
 

@@ -100,7 +100,7 @@ humanoid::BodyTarget& target_begun(const IkNow& now, HumanoidPart& part, Effecto
     std::optional<humanoid::BodyTarget>& target = part.ik.target(effector);
     if (holds(part, effector))
         throw std::invalid_argument(std::string(humanoid::name(effector)) + " holds the " +
-                                    held_kinds.title(part.ik.hold->kind) + ": move that, or let go of it");
+                                    held_kinds.title(part.ik.hold->kind) + ": move that, or release it");
     if (!target) {
         const std::size_t node = *part.node_of(humanoid::bone_of(effector));
         target = humanoid::BodyTarget{.effector = effector, .position = now.shown.placed[node].position};
@@ -223,12 +223,12 @@ void add_ik_commands(CommandTable& table) {
           .required = false,
           .help = "of the bone; free if never given"},
          each_argument("rotations", "effectors"),
-         number_argument("weight", "compared with other targets; 0 lets go", weights.low, weights.high)},
-        "Gives effectors targets, or lets them go", set_targets));
+         number_argument("weight", "relative to other targets; 0 removes it", weights.low, weights.high)},
+        "Gives effectors targets, or removes them", set_targets));
     std::vector<Argument> ground_arguments = field_arguments<GroundSetting>();
     ground_arguments.push_back(text_argument("path", false, "of the mesh: a .gltf or .glb file"));
     Command ground = ik_command("humanoid.ground", "Choose the ground", std::move(ground_arguments),
-                                "Sets what the character walks on; anything omitted stays as it is. Slopes, "
+                                "Sets the ground; omitted settings are kept. Slopes, "
                                 "stairs, terrain and meshes turn foot IK on and restart the walk",
                                 set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
@@ -243,7 +243,7 @@ void add_ik_commands(CommandTable& table) {
     };
     table.add(std::move(ground));
     table.add(ik_command("humanoid.foot_ik", "Set foot IK", field_arguments<FootIkSetting>(),
-                         "Brings the feet to the ground; anything omitted stays as it is", set_foot_ik));
+                         "Brings the feet to the ground; omitted settings are kept", set_foot_ik));
     add_hand_commands(table);
     add_hold_commands(table);
     table.add(
@@ -349,23 +349,23 @@ void set_balance(const IkNow& now, HumanoidPart& part, const Arguments& given) {
 void add_hand_commands(CommandTable& table) {
     std::vector<Argument> hands = field_arguments<HandIkSetting>();
     hands.push_back(
-        choice_argument("hand", false, "whose curve; both if omitted", {"left", "right", "both"}));
+        choice_argument("hand", false, "which hand's curve; both if omitted", {"left", "right", "both"}));
     hands.push_back(switch_argument("curve", "the weight follows the clip's time"));
     for (Argument& each : field_arguments<HandCurve>()) hands.push_back(std::move(each));
     table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
-                         "Blends the hands from the clip to their targets; anything omitted stays as it is",
+                         "Blends the hands from the clip to their targets; omitted settings are kept",
                          set_hand_ik));
     table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
                          {{.name = "on", .type = ArgumentType::Boolean, .help = "false: turns it off"}},
                          "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
-    table.add(ik_command("humanoid.balance", "Keep the body's balance", field_arguments<BalanceSetting>(),
-                         "Keeps the centre of mass over the feet while the body reaches; anything omitted "
-                         "stays as it is",
-                         set_balance));
+    table.add(
+        ik_command("humanoid.balance", "Keep the body's balance", field_arguments<BalanceSetting>(),
+                   "Keeps the centre of mass over the feet while the body reaches; omitted settings are kept",
+                   set_balance));
     std::vector<Argument> gaze = field_arguments<LookAtSetting>();
     gaze.push_back(point_argument("to", false, "metres; ahead of the head if never given"));
     table.add(ik_command("humanoid.look_at", "Look at a point", std::move(gaze),
-                         "Turns spine, neck and head to look at a point; anything omitted stays as it is",
+                         "Turns spine, neck and head to look at a point; omitted settings are kept",
                          set_look_at));
 }
 

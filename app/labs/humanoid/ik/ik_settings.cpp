@@ -319,9 +319,8 @@ std::span<const FieldText> field_texts<BalanceSetting>() {
          .more = true},
         {.name = "steps",
          .label = "Steps",
-         .help =
-             "A foot steps to where it catches the body when moving the hips is not enough, unless the clip "
-             "lifts the other one.",
+         .help = "If moving the hips is not enough, a foot steps to catch the body, unless the clip lifts "
+                 "the other foot.",
          .more = true},
         {.name = "step_seconds",
          .label = "step time",

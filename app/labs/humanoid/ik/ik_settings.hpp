@@ -29,7 +29,7 @@ namespace tendril::app {
 
 inline constexpr EnumNames<humanoid::GroundKind, 6> ground_kinds{
     "kind of ground",
-    {{"none", "none", "Nothing to stand on: feet keep to the clip."},
+    {{"none", "none", "No ground: feet follow the clip."},
      {"flat", "flat", "Level at 0."},
      {"slope", "slope", "Rises along +Z."},
      {"stairs", "stairs", "Rise along +Z, the first step at 0."},
@@ -72,7 +72,7 @@ inline constexpr EnumNames<LimitsFrom, 3> limits_from{
     "source of limits",
     {{"defaults", "of an adult", "Each joint turns as far as an adult's does."},
      {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
-     {"none", "none", "Joints turn as far as they are asked to."}}};
+     {"none", "none", "Joints are not limited."}}};
 
 // The library's options, plus the lab's own. Files, commands and panels have the options in the tables; the
 // others keep their defaults, or follow from clip and character.

@@ -263,7 +263,8 @@ std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Sol
     if (!shown.balance) return {};
     if (!body_acts(part, part.ik_state)) {
         if (part.ik.hand_target(0) || part.ik.hand_target(1))
-            return "Balance does not act: hand IK moves the arms alone. Turn it off to let the body reach.";
+            return "Balance has no effect: hand IK moves only the arms. Turn hand IK off to let the body "
+                   "reach.";
         return "Balance acts once something has a target.";
     }
     if (!shown.body) return {};

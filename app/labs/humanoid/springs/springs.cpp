@@ -362,12 +362,11 @@ void add_spring_commands(CommandTable& table) {
     std::vector<Argument> arguments{
         node_argument("node", false,
                       "by name: it and everything below it, which must not be bones of the body"),
-        name_list_argument("nodes", "node"), switch_argument("on", "false: takes them off")};
+        name_list_argument("nodes", "node"), switch_argument("on", "false: removes them")};
     for (Argument& each : field_arguments<humanoid::SpringOptions>()) arguments.push_back(std::move(each));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.spring", "Let nodes swing on springs", std::move(arguments),
-        "Lets ears, antennae or a tail trail behind on springs; anything omitted stays as it is",
-        set_springs));
+        "Lets ears, antennae or a tail trail behind on springs; omitted settings are kept", set_springs));
 }
 
 }  // namespace tendril::app

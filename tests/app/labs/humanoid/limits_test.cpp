@@ -265,7 +265,7 @@ TEST_F(HumanoidBalanceLab, ItExplainsWhyItDoesNotAct) {
     run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.2, 1.0, 0.5}}});
     EXPECT_EQ(why(), "");
     run("humanoid.hand_ik", {{"on", true}});
-    EXPECT_TRUE(test::says(why(), "does not act hand IK moves the arms alone"));
+    EXPECT_TRUE(test::says(why(), "has no effect hand IK moves only the arms"));
     run("humanoid.target", {{"effector", "head"}});
     EXPECT_EQ(why(), "");
 }

@@ -191,7 +191,7 @@ TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
     write("rig.vrm", vrma("VRMC_vrm", true, true));
     run("humanoid.load", {{"path", path("rig.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
-    tells("wave_2 Left as it is: pole.");
+    tells("wave_2 Not retargeted: pole.");
     run("humanoid.map", {{"bone", "Hips"}});
     refuses("humanoid.motion.load", {{"path", path("wave.vrma")}}, "wave.vrma to.map Hips");
 }
