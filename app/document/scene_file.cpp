@@ -161,8 +161,8 @@ std::string stand_in_note(const std::string& lab, const Part& part) {
            (part.replaces_unread && !part.unread_stand_in
                 ? "Saving replaces what the scene still has of the " + lab + " lab; undo brings it back."
                 : "The " + lab +
-                      " lab is blank; saving keeps its old contents until you change it. "
-                      "Put the file back and open the scene again.");
+                      " lab is blank; saving keeps its old contents until you change it. Put the file back "
+                      "and open the scene again.");
 }
 
 namespace {

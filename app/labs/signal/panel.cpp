@@ -329,8 +329,8 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     const PanelSection ids("Fit");
     if (part.recording) {
         note(
-            "Drag the blue ball as the output should move. The input starts when you grab it; the "
-            "recording ends when you let go.");
+            "Drag the blue ball as the output should move. The input starts when you grab it; the recording "
+            "ends when you let go.");
         if (row_button("Stop", 1, true, "Stops recording; what was recorded is kept"))
             emit("signal.fit.stop");
         return;

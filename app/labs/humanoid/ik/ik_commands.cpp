@@ -228,8 +228,8 @@ void add_ik_commands(CommandTable& table) {
     std::vector<Argument> ground_arguments = field_arguments<GroundSetting>();
     ground_arguments.push_back(text_argument("path", false, "of the mesh: a .gltf or .glb file"));
     Command ground = ik_command("humanoid.ground", "Choose the ground", std::move(ground_arguments),
-                                "Sets the ground; omitted settings are kept. Slopes, "
-                                "stairs, terrain and meshes turn foot IK on and restart the walk",
+                                "Sets the ground; omitted settings are kept. Slopes, stairs, terrain and "
+                                "meshes turn foot IK on and restart the walk",
                                 set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
         const glm::vec3 before = standing_at(workspace);
