@@ -205,7 +205,7 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
 }
 
 CLI::App* add_lint(CLI::App& line, LintOptions& options) {
-    CLI::App* lint = line.add_subcommand("lint", "Report what is wrong with a character's clips");
+    CLI::App* lint = line.add_subcommand("lint", "Report faults in a character's clips");
     lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
     lint->add_option("--motion", options.motion, "Check another character's clips on this one")
         ->option_text("FILE");
@@ -221,7 +221,7 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
         ->option_text("FILE");
     CLI::Option* const clip =
         bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
-    bake->add_flag("--all", options.all, "Every clip, each to a file of its own")->excludes(clip);
+    bake->add_flag("--all", options.all, "Every clip, each to its own file")->excludes(clip);
     bake->add_option("--ground", options.ground,
                      "The ground under its feet; default: none, feet not corrected")
         ->check(CLI::IsMember(bake_grounds()))
@@ -238,7 +238,7 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
 }
 
 CLI::App* add_trace(CLI::App& line, TraceOptions& options) {
-    CLI::App* trace = line.add_subcommand("trace", "Explain what a chain did in an engine, frame by frame");
+    CLI::App* trace = line.add_subcommand("trace", "Explain an engine's chain, frame by frame");
     trace->add_option("FILE", options.file, "JSON Lines, CSV or a log; see below")->required();
     const auto csv = trace->add_flag("--csv", options.csv, "Print rows of comma-separated values");
     trace->add_flag("--json", options.json, "Print one JSON array")->excludes(csv);

@@ -194,8 +194,8 @@ const char* const lint_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. All of its clips are checked for
 skating, floating and sinking feet, knees that pop, rotation keys that go the long
 way round, joints that jump or bend far beyond human range, scale and axis faults.
-With --motion, the clips of that file are checked as they are on this character.
-Prints how the files were read, where they do not say: unit, up axis, root, what was
+With --motion, the clips of that file are retargeted to this character and checked.
+Prints the guesses made where a file does not say (unit, up axis, root), and what was
 left out. Then one line per finding, with its frame, time, joint and amount; with
 --json one object:
   {"file", "notes": [sentences], "findings": 2, "clips": [{"name", "duration",
@@ -210,16 +210,16 @@ const char* const bake_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. One of its clips, by
 default the first, is written to --out, or to FILE_baked beside the file: as glTF,
 GLB or BVH, depending on the name's ending. With --all every clip is written, each
-to a file of its own: its name is added to the file's. With --motion, the clips are
-those of that file, another character's: limbs point as they do there, and the feet
-stand where they do. glTF from a glTF file keeps its nodes, skins, materials, meshes and
+to its own file: its name is added to the file's. With --motion, the clips come from
+that file, another character's: limbs point, and feet stand, as they do there. glTF
+from a glTF file keeps its nodes, skins, materials, meshes and
 pictures unchanged. With a ground, the feet are put on it first: flat, a slope of 20
 degrees or stairs 15 cm high and 30 cm deep, which rise along +Z, or terrain, low
-hills. A clip that walks in place climbs nothing: with --travel it goes along at the
-speed of its standing foot. The file is then read back, and two errors are printed:
-the joint that is furthest from where it was, in mm, and how far a standing foot
-slides at most, before and after. A BVH's frame 0 is time 0. What a file does not say
-and was guessed (unit, up axis, root) is printed first. A glTF, GLB or BVH file
+hills. A clip that walks in place climbs nothing: with --travel it moves at the speed
+of its standing foot. The file is then read back, and two errors are printed: the
+largest distance of a joint from its place before, in mm, and how far a standing foot
+slides at most, before and after. A BVH's frame 0 is time 0. Guesses made where a file
+does not say (unit, up axis, root) are printed first. A glTF, GLB or BVH file
 that exists is replaced only with --force, as a whole or not at all; any other file
 and the files read never are (exit code 2). A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";

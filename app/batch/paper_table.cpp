@@ -66,7 +66,7 @@ const char* const paper_help =
     "the\n"
     "reach and at 1.05 to 2 times the reach, the same random poses to start from for every solver. Solved\n"
     "means within tolerance, or, out of reach, straight; all solvers here detect that without iterating,\n"
-    "where those of the paper go on. Times are from the fastest of three rounds. Ctrl+C keeps the rows "
+    "where the paper's solvers continue. Times are from the fastest of three rounds. Ctrl+C keeps the rows "
     "done so far.";
 
 }  // namespace tendril::app

@@ -134,7 +134,7 @@ std::size_t run_trace(const TraceOptions& options) {
 }
 
 const char* const trace_help =
-    R"(FILE is what an engine wrote: JSON Lines, CSV, .trc, or any log with positions in
+    R"(FILE is an engine's output: JSON Lines, CSV, .trc, or any log with positions in
 it, such as (X=1.0 Y=2.0 Z=3.0), new Vector3(1f, 2f, 3f), (1, 2, 3) or rows of numbers.
 With - it is read from standard input. Only the joints are required:
   {"tendril": "trace", "up": "z", "handed": "left", "unit": "cm", "fps": 60,
@@ -151,13 +151,12 @@ amount and cause; with --json one array:
   [{"frame", "last_frame", "joint", "kind": "flip" | "nan" | "length" | "limit" |
     "missed" | "lag" | "jitter" | "repeated" | "target_jump" | "pole_jump" |
     "misplaced", "amount", "unit", "cause"}]
-A flip also has what would have prevented it: small changes under which
-Tendril's solve of the same input has none, each tried, and the solver that flips
-without them:
+A flip also lists small changes that prevent it, each tried: with any of them
+Tendril's solve of the same input does not flip. Without them this solver does:
   "flips_in": "two_bone", "prevented_by": [{"change": "pole" | "soft_zone" |
     "hinge" | "method", "solver", "to": [x, y, z], "soft_zone", "joint"}]
-Files of any length are read as a stream. What is damaged is refused with its line,
-or, after the first frames, read up to it.
+Files of any length are read as a stream. Damaged input is refused with its line
+or, after the first frames, read up to there.
 Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.
 To open a scene file that is named trace, write ./trace.)";
 

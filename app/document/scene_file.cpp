@@ -60,8 +60,8 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const
         if (stand_in != nullptr)
             notes.push_back({lab,
                              "The " + lab +
-                                 " lab is as it was saved with all its files. Changes made while they were "
-                                 "missing are left out.",
+                                 " lab is loaded from its last save with all files. Changes made while files "
+                                 "were missing are left out.",
                              true});
         return part;
     } catch (const OutsideFileError& error) {
@@ -159,7 +159,7 @@ std::string stand_in_note(const std::string& lab, const Part& part) {
     if (!part.unread) return {};
     return part.unread_why + ". " +
            (part.replaces_unread && !part.unread_stand_in
-                ? "Saving replaces what the scene still has of the " + lab + " lab; undo brings it back."
+                ? "Saving replaces the scene's old contents of the " + lab + " lab; undo restores them."
                 : "The " + lab +
                       " lab is blank; saving keeps its old contents until you change it. Put the file back "
                       "and open the scene again.");

@@ -73,7 +73,7 @@ void add_history_commands(CommandTable& table) {
     table.add("paste", "Paste", {},
               "Pastes the clipboard's text into the lab. In a script, hold Ctrl and send the text instead",
               Effect::Look, [](Workspace& w, const Arguments&) { w.ui.pastes = true; });
-    table.add("redo", "Redo", {ask}, "Redoes what was undone", Effect::Replace,
+    table.add("redo", "Redo", {ask}, "Redoes the last undone change", Effect::Replace,
               [](Workspace& w, const Arguments& a) { step_through(w, false, a); });
 }
 

@@ -48,7 +48,7 @@ LabSetting mouse_setting() {
             .command = "view.mouse",
             .title = "Choose the mouse preset",
             .argument = "like",
-            .help = "Turns and shifts the view with the mouse as in the chosen program",
+            .help = "Sets the mouse actions that turn and shift the view to those of a program",
             .choices = {{"tendril", "Tendril"}, {"blender", "Blender"}, {"maya", "Maya, Unreal"}}};
 }
 
@@ -58,9 +58,8 @@ LabSetting scroll_setting() {
             .title = "Choose what scrolling does",
             .argument = "does",
             .help =
-                "What the wheel, or two fingers on a touchpad, do in the view: zoom, or shift it. If they "
-                "shift "
-                "it, Ctrl makes them zoom; some systems send a pinch as Ctrl with the wheel",
+                "Whether the wheel, or two fingers on a touchpad, zoom or shift the view. If they shift it, "
+                "Ctrl makes them zoom; some systems send a pinch as Ctrl with the wheel",
             .choices = {{"zoom", "zooms"}, {"pan", "shifts the view"}}};
 }
 

@@ -303,7 +303,7 @@ void show_quit(const ShellFrame& frame, Emit& emit) {
     if (row_button(named ? "Save" : "Save...", 3, true, "Saves the scene, then quits"))
         emit("quit", {{"unsaved", "save"}});
     if (row_button("Discard", 3, true, "Quits; the changes are lost")) emit("quit", {{"unsaved", "discard"}});
-    if (row_button("Cancel", 3, true, "Esc: goes on working")) emit("view.close");
+    if (row_button("Cancel", 3, true, "Esc: returns to the scene")) emit("view.close");
     ImGui::End();
 }
 

@@ -189,7 +189,7 @@ void tabs(const ShellFrame& frame, float room, Emit& emit) {
         ImGui::PopStyleColor();
         if (ImGui::IsItemHovered())
             tooltip(open ? "The " + lab->title() + " lab is open"
-                         : "Opens the " + lab->title() + " lab; this one stays as it is");
+                         : "Opens the " + lab->title() + " lab; this one does not change");
     }
 }
 

@@ -84,7 +84,8 @@ enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach, Curve };
 enum class ChainPoint { Target, Pole };
 inline constexpr EnumNames<ChainPoint, 2> chain_points{
     "point",
-    {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
+    {{"target", "Target", "The point that the chain follows."},
+     {"pole", "Pole target", "The point that it bends towards."}}};
 
 struct ShownTrace;
 /// A frame of an engine's trace, and Tendril's solve of the same input as a ghost with as many joints.
@@ -131,7 +132,7 @@ inline constexpr EnumNames<ChainMode, 6> chain_modes{
     "mode",
     {{"forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
      {"backward", "Backward", "Pulls by the tail: it goes to the target, the rest trails."},
-     {"fixed", "Fixed", "The head reaches for the target; the tail stays where it is."},
+     {"fixed", "Fixed", "The head reaches for the target; the tail stays in place."},
      {"with_index", "With index", "Pulls by one segment; both sides trail."},
      {"reach", "Reach", "The root stays; the tip reaches for the target."},
      {"curve", "Curve", "Every joint lies on a curve through control points."}}};

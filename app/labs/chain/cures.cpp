@@ -106,7 +106,7 @@ std::optional<Cure> flip_cure(FlipCure cure, const ChainPart& before, const Chai
             break;
         case FlipCure::NoRestarts:
             return Cure{"No restarts",
-                        "Runs chain.solver: the solver keeps to the pose it is in",
+                        "Runs chain.solver: the solver continues from its current pose",
                         {{"chain.solver", {{"restarts", 0}}}}};
     }
     return std::nullopt;

@@ -36,7 +36,7 @@ std::span<const FieldText> field_texts<CurveSettings>() {
         std::vector<FieldText> all(shape.begin(), shape.end());
         all.push_back({.name = "up",
                        .label = "up",
-                       .help = "Where the upper side of the bones faces at the curve's beginning.",
+                       .help = "The direction of the bones' upper side at the curve's beginning.",
                        .in_line = true,
                        .more = true});
         return all;
@@ -283,7 +283,7 @@ void control_rows(const ChainPart& part, Emit& emit) {
     reading("control point", "%zu", all.front());
     std::vector<glm::vec3> points = part.curve.points;
     if (point_field("at", points[all.front()], 0.01f)) emit_points(part, std::move(points), emit);
-    explain("Where the control point is. It can be dragged in the scene too.");
+    explain("The control point's position. It can be dragged in the scene too.");
 }
 
 }  // namespace tendril::app

@@ -38,7 +38,7 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     if (!reaches && chain.size() > 1)
         to_target(chain.size() - 1, static_cast<double>(shown_residual(part, joints)));
     reading("length error", "%s", error_text(static_cast<double>(worst_error(shown, joints))).c_str());
-    explain("How far the worst bone is from its length, wherever the tip is; none: less than 0.01 mm.");
+    explain("The largest difference of a bone from its length; none: less than 0.01 mm.");
 }
 
 void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {
@@ -189,10 +189,10 @@ void one_joint(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
     ImGui::EndDisabled();
     explain(part.mode == ChainMode::Curve
-                ? "Where the joint is. It follows the curve: drag that."
-                : "Where the joint is. A change pulls it there, and the chain follows.");
+                ? "The joint's position. It follows the curve: drag the curve."
+                : "The joint's position. A change pulls it there, and the chain follows.");
     length_field(i == 0 ? "length" : "bone length", part, emit);
-    if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
+    if (i == 0) note("No bone leads to this joint: the length applies once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(joints[i], part.target)));
 }
 

@@ -110,7 +110,7 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     if (part.mode != ChainMode::Reach) plane_switch(part, emit);  // in Reach beside the pole target's
     if (!part.reach.plane) return;
     const ChainPlane& plane = *part.reach.plane;
-    if (row_button("2D view", 1, true, "Looks square on to the plane, without perspective: drags stay in it"))
+    if (row_button("2D view", 1, true, "Looks straight at the plane, without perspective: drags stay in it"))
         look_at_plane(plane, emit);
     end_row();
     for (const Preset& preset : presets())
@@ -120,7 +120,7 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         glm::vec3 normal = plane.normal;
         if (point_field("normal", normal, 0.01f) && glm::length(normal) > 1e-6f)
             emit.continuously("chain.plane", {{"normal", normal}});
-        explain("At right angles to the plane. Its length does not matter.");
+        explain("Perpendicular to the plane. Its length does not matter.");
     });
     if (part.mode != ChainMode::Reach) return;
     const auto titles = bend_sides.titles();
@@ -159,7 +159,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
-    explain("Where the target is. It can be dragged in the scene too.");
+    explain("The target's position. It can be dragged in the scene too.");
 
     const FieldRows path(part.motion, "chain.motion", emit);
     path.row("path");
@@ -326,7 +326,7 @@ std::string status_text(const ChainPart& part) {
                        ? "The tip is as near as it can be in the plane."
                        : "The tip is on the target.";
         case ik::Status::Stretched:
-            return "The chain lies straight towards it.";
+            return "The chain is straight and points at the target.";
         case ik::Status::TooClose:
             return "The longest bone keeps the tip away.";
         case ik::Status::Limited:
@@ -336,7 +336,7 @@ std::string status_text(const ChainPart& part) {
         case ik::Status::Stalled:
             return stalled_text(part);
         case ik::Status::IterationLimit:
-            return "It ran out of iterations.";
+            return "The solver ran out of iterations.";
         case ik::Status::InvalidInput:
             break;
     }
@@ -456,7 +456,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     more.add("pole", {"chain.pole", {"to"}}, false, [&part, &emit] {
         glm::vec3 pole = *part.reach.options.pole;
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
-        explain("Where the pole target is. Drag the pink ball to move it.");
+        explain("The pole target's position. Drag the pink ball to move it.");
     });
     solver_row(part, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
 }

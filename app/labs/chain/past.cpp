@@ -136,7 +136,7 @@ FlipReason reason_of(const ChainPart& before, const ChainPart& after, const ik::
     if (seen != ThroughRoot && seen != PassedPole) {
         if (after.result->report.restarts > 0)
             return {"the solver restarted from another pose",
-                    {"Without restarts it keeps to the pose it is in.", FlipCure::NoRestarts}};
+                    {"Without restarts the solver continues from its current pose.", FlipCure::NoRestarts}};
         if (limit_switched(before, after))
             return {"a limit switched sides", {"Narrow that limit: both its ends are equally good here."}};
     }
@@ -274,7 +274,7 @@ const Past& chain_past() {
         .plot_help =
             "Plotted below the scene over the last ten seconds; angles are those of the selected "
             "joint",
-        .ghosts_help = "Where the chain was every half second",
+        .ghosts_help = "Shows the chain's pose at every half second",
         .pose = lines_of,
         .same_joints = same_joints,
         .incidents = incidents_of};

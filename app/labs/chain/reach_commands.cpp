@@ -79,7 +79,7 @@ std::span<const FieldText> field_texts<ReachSettings>() {
         {.name = "restarts",
          .label = "restarts",
          .help = "Within joint limits: how many other poses the solver restarts from if it ends short of the "
-                 "target. More reach it more often; the chain may jump.",
+                 "target. More restarts reach it more often; the chain may jump.",
          .more = true},
         {.name = "pole_turn",
          .label = "turns",
@@ -93,23 +93,22 @@ std::span<const FieldText> field_texts<ReachSettings>() {
 
 template <>
 std::span<const FieldText> field_texts<ik::AngleLimit>() {
-    static constexpr FieldText texts[] = {
-        {.name = "min",
-         .label = "minimum",
-         .help = "The smallest angle, to the right; 0 is straight on.",
-         .step = 0.5f,
-         .decimals = 1},
-        {.name = "max",
-         .label = "maximum",
-         .help = "The largest angle, to the left; 0 is straight on.",
-         .step = 0.5f,
-         .decimals = 1},
-        {.name = "from",
-         .label = "from",
-         .help = "What the angle is measured from: the bone before, or a fixed direction, along which the "
-                 "chain lies at rest.",
-         .listed = true,
-         .choices = angle_origins.rows}};
+    static constexpr FieldText texts[] = {{.name = "min",
+                                           .label = "minimum",
+                                           .help = "The smallest angle, to the right; 0 is straight on.",
+                                           .step = 0.5f,
+                                           .decimals = 1},
+                                          {.name = "max",
+                                           .label = "maximum",
+                                           .help = "The largest angle, to the left; 0 is straight on.",
+                                           .step = 0.5f,
+                                           .decimals = 1},
+                                          {.name = "from",
+                                           .label = "from",
+                                           .help = "The angle is measured from the bone before, or from a "
+                                                   "fixed direction, along which the chain lies at rest.",
+                                           .listed = true,
+                                           .choices = angle_origins.rows}};
     return texts;
 }
 
@@ -293,17 +292,15 @@ void add_reach_commands(CommandTable& table) {
     table.add(chain_command("chain.limit", "Limit joints", limit_arguments<ik::Limit>(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             limit_joints));
-    table.add(
-        chain_command("chain.plane", "Keep the chain in a plane",
-                      {{.name = "normal",
-                        .type = ArgumentType::Point,
-                        .required = false,
-                        .help = "at right angles to the plane, which goes through the root"},
-                       switch_argument("off", "true: no plane")},
-                      "Keeps the chain in a plane, in every mode but curve, its other limits put aside; "
-                      "the 2D view looks along its "
-                      "normal",
-                      set_plane));
+    table.add(chain_command("chain.plane", "Keep the chain in a plane",
+                            {{.name = "normal",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "the plane's normal; the plane goes through the root"},
+                             switch_argument("off", "true: no plane")},
+                            "Keeps the chain in a plane in every mode but curve, without its other limits; "
+                            "the 2D view looks along the normal",
+                            set_plane));
     table.add(chain_command(
         "chain.bend", "Bend the chain in its plane",
         {choice_argument("side", true, "of the line from root to tip, in the 2D view", bend_sides.names())},
@@ -318,8 +315,7 @@ void add_reach_commands(CommandTable& table) {
                               .required = false,
                               .help = "metres; the elbow or knee points at it"},
                              switch_argument("off", "true: no pole")},
-                            "Sets the pole target of mode reach: what the elbow or knee points at",
-                            set_pole));
+                            "Sets the pole target of mode reach: the elbow or knee points at it", set_pole));
 }
 
 }  // namespace tendril::app

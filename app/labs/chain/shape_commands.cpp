@@ -168,7 +168,7 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear", "Remove every joint",
                             {point_argument("default_direction", false,
                                             "unit vector along which a chain without a direction extends")},
-                            "Removes every segment, and sets all but the mode as at first", clear));
+                            "Removes every segment, and resets everything but the mode", clear));
     table.add(chain_command("chain.add", "Add a joint at the tip", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
     table.add(

@@ -35,9 +35,9 @@ std::optional<Study::From> start_of(const Arguments& given) {
 }
 
 Argument start_argument() {
-    return choice_argument(
-        "start", false, "what each solve starts from: the last start, the current pose, or a straight line",
-        {std::begin(starts), std::end(starts)});
+    return choice_argument("start", false,
+                           "the start of each solve: the last start, the current pose, or a straight line",
+                           {std::begin(starts), std::end(starts)});
 }
 
 /// Studies need mode Reach; the chain then shows the result of a solve from the study's start.

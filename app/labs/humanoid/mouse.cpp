@@ -227,11 +227,11 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const auto waiting = humanoid_runtime(workspace).panel.bone;
     const auto effector = picked_effector(pick);
-    if (pick == look_pick) return "What the head looks at. Drag to move it.";
+    if (pick == look_pick) return "The point that the head looks at. Drag to move it.";
     if (const auto curve = picked_curve(part, pick)) return curve_hint(part, *curve);
     if (pick == hold_pick && part.ik.hold)
         return std::string("The ") + held_kinds.title(part.ik.hold->kind) +
-               ": drag moves it, double click lets go.";
+               ": drag moves it, double click releases it.";
     if (effector && !waiting) return effector_hint(part, *effector);
     const auto node = clicked_node(part, pick);
     if (!node) return {};
@@ -242,7 +242,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
-            {"Double click on an orange ball", "removes the target, or lets go of the object"},
+            {"Double click on an orange ball", "removes the target, or releases the object"},
             {"Curve: drag, click, double click", "moves, adds, removes a control point"},
             {"Drag an arrow, a square or a ring",
              "moves or turns the selected hands, feet, head and hips, or the held object"},

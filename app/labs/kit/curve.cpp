@@ -37,11 +37,11 @@ std::span<const FieldText> field_texts<CurveShape>() {
          .more = true},
         {.name = "weight",
          .label = "weight",
-         .help = "How far the bones turn from the pose that the chain had before to the curve.",
+         .help = "How far the bones turn from the chain's previous pose to the curve.",
          .step = 0.005f},
         {.name = "falloff",
          .label = "falloff",
-         .help = "How much less the first bones follow the curve than the last; below 0, the last bones than "
+         .help = "How much less the first bones follow the curve than the last; below 0: the last less than "
                  "the first.",
          .step = 0.005f,
          .more = true},

@@ -70,7 +70,7 @@ FlipAdvice flip_advice(ik::FlipCause cause, bool poled) {
         case PassedAxis:
             return {"Add a pole target off that axis, or bend towards another one there.", FlipCure::AddPole};
         case Rolled:
-            return {"Look at how the bone's up axis is chosen: positions leave its roll open."};
+            return {"Check how the bone's up axis is chosen: positions do not define its roll."};
         case Unexplained:
             break;
     }

@@ -26,7 +26,7 @@ namespace tendril::app {
 /// The side to which a chain in a plane bends.
 inline constexpr EnumNames<ik::Side, 3> bend_sides{
     "side",
-    {{"free", "as it is", "The chain stays on the side that it is on."},
+    {{"free", "as it is", "The chain keeps its present side."},
      {"left", "left", "To the left of the line from root to tip, as the 2D view shows it."},
      {"right", "right", "To the right of the line from root to tip, as the 2D view shows it."}}};
 inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{

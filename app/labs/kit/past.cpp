@@ -109,7 +109,7 @@ void go_to_past(const Workspace& workspace, int place, Emit& emit) {
 }
 
 std::string strip_help(const Workspace& workspace) {
-    const std::string help = "The last ten seconds. Drag to go back to that moment.",
+    const std::string help = "The last ten seconds. Drag to go back in time.",
                       lost = discards_text(workspace);
     return lost.empty() ? help : help + "\n" + lost;
 }

@@ -36,7 +36,7 @@ void motor_rows(const Workspace& workspace) {
     else
         reading("travel", "%s to %s %s", end(turn.poses.front()).c_str(), end(turn.poses.back()).c_str(),
                 turns(part, joint) ? "degrees" : "m");
-    explain("How far it goes in this assembly mode, between dead points or the ends of its range.");
+    explain("How far the motor goes in this assembly mode, between dead points or the ends of its range.");
     const double now = transmission_angle(part);
     const auto worst = worst_transmission(part, turn);
     if (!std::isfinite(now) || !worst) return;
@@ -49,10 +49,10 @@ void motor_rows(const Workspace& workspace) {
                                                                     : "";
     reading("minimum", "%.1f degrees%s", worst->degrees, judged);
     explain(
-        "The smallest on all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
+        "The smallest over all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
         "The plot of the transmission angle, under Show, draws it over the motor's angle.");
     reading(("at " + joint).c_str(), "%s", value_text(part, joint, worst->value).c_str());
-    explain("Where the motor is at that minimum.");
+    explain("The motor's value at that minimum.");
 }
 
 void freedom_rows(const LinkagePart& part) {
@@ -94,10 +94,10 @@ void pair_motor_row(const LinkageShape& shape, std::size_t at, std::size_t bar, 
         return each.point == at && std::minmax(each.bar, each.against) == std::minmax(bar, against);
     });
     if (motor != sketch.motors.end()) {
-        if (row_button(("Remove " + motor->name).c_str(), 1, true, "Takes the motor between the bars away"))
+        if (row_button(("Remove " + motor->name).c_str(), 1, true, "Removes the motor between the bars"))
             emit("linkage.motor.remove", {{"joint", motor->name}});
     } else if (row_button(("Motor: " + first + " to " + second).c_str(), 1, true,
-                          "Puts a motor here that turns the one bar against the other")) {
+                          "Adds a motor that turns one bar against the other")) {
         emit("linkage.motor.add", {{"point", sketch.points[at].name}, {"bar", second}, {"against", first}});
     }
 }
@@ -118,18 +118,18 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     const std::string speed = point_speed_text(part, part.selected, runtime);
     if (speed.empty()) {
         reading("name", "%s", part.selected.c_str());
-        explain("As in files and commands.");
+        explain("Its name in files and commands.");
     } else {
         reading(("speed of " + part.selected).c_str(), "%s", speed.c_str());
         explain("At the motor's speed, or at the speed it would run at. Show plots it.");
     }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
-    explain("Where it is: X, Y and Z.");
+    explain("Its position: X, Y and Z.");
     std::string bars;
     const double angle = angle_at(part, part.selected, &bars);
     if (std::isfinite(angle)) {
         reading(("angle " + bars).c_str(), "%.1f degrees", angle);
-        explain("Between its two bars; of a single one, from +X.");
+        explain("Between its two bars; with a single bar, from +X.");
     }
     if (!part.shape->in_plane()) return;
     bar_rows(part, *at, emit);

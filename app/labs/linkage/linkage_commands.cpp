@@ -385,8 +385,8 @@ void add_linkage_commands(CommandTable& table) {
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
          number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
-        "Runs a joint at this speed while time passes. Default: the speed it last ran at, or first 90 "
-        "degrees or a tenth of the linkage's size a second",
+        "Runs a joint at this speed while the simulation runs. Default: the speed it last ran at, or first "
+        "90 degrees or a tenth of the linkage's size a second",
         motor));
     table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,
@@ -394,8 +394,8 @@ void add_linkage_commands(CommandTable& table) {
                                switch_argument("exact", "comes before all targets that are not")},
                               "Pulls a point to a position as far as the drivers let it", target));
     table.add(linkage_command("linkage.target.remove", "Remove a point's target",
-                              {linkage_point_argument("point", true, "which point")}, "Lets the point go",
-                              remove_target));
+                              {linkage_point_argument("point", true, "which point")},
+                              "Removes the target from the point", remove_target));
     table.add(linkage_command("linkage.drag", "Drag a point of the linkage",
                               {linkage_point_argument("point", true, "which point"), to},
                               "Drags a point as the mouse does: drivers follow until it is released", drag));
@@ -403,7 +403,7 @@ void add_linkage_commands(CommandTable& table) {
     table.add(and_then(
         linkage_command("linkage.other_mode", "Switch to another assembly mode",
                         {switch_argument("nearest", "the one most like this; omitted: each in turn")},
-                        "Assembles the same bars another way, with the drivers where they are", other_mode),
+                        "Assembles the same bars in another way; the drivers do not move", other_mode),
         keep_linkage_in_view));
     table.add(
         opening_command("linkage.clear", "Remove all bars and joints", {}, "Removes everything", clear));

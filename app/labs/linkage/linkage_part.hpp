@@ -64,9 +64,9 @@ inline constexpr EnumNames<LinkageTool, 4> linkage_tools{
     "tool",
     {{"move", "Move", "Drag a joint: the linkage follows. A click selects it."},
      {"draw", "Draw", "Drag from one place to another: a bar. A click adds a joint, on a bar or beside it."},
-     {"pin", "Pin", "A click on a joint pins it to the ground, or lets it move again."},
+     {"pin", "Pin", "A click on a joint pins it to the ground, or unpins it."},
      {"motor", "Motor",
-      "A click on a joint puts a motor there, on its pin or between its two bars, or takes it away."}}};
+      "A click on a joint adds a motor, on its pin or between its two bars, or removes it."}}};
 
 /// The range of a hinge or slider, identified by the name of its link.
 struct LinkageRange {

@@ -65,11 +65,11 @@ Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool p
         case DeadPoint: {
             const std::string reason = dead_point_reason(part, runtime);
             return {"Dead point", Verdict::Kind::Bad,
-                    stop_text(part) + " cannot go on" + (reason.empty() ? "." : ": " + reason + ".")};
+                    stop_text(part) + " cannot move further" + (reason.empty() ? "." : ": " + reason + ".")};
         }
         case Limited:
             return {"At the end of a range", Verdict::Kind::Bad,
-                    report.stopped ? stop_text(part) + " cannot go on." : "A target is beyond it."};
+                    report.stopped ? stop_text(part) + " cannot move further." : "A target is beyond it."};
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
                     "No pose was found that brings the point to its target."};
@@ -78,7 +78,7 @@ Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool p
                     goes_on(part) ? "It continues while the simulation runs."
                                   : "The solver ran out of iterations."};
         case InvalidInput:
-            return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
+            return {"Too large", Verdict::Kind::Bad, "A number is too large to solve."};
         case Reached:
             break;
     }
@@ -123,7 +123,7 @@ namespace {
 void linkage_presets(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const MechanismKind& kind : mechanism_kinds()) buttons.push_back({kind.name, kind.title, kind.help});
-    preset_rows(linkage_lab, buttons, "Removes everything and begins to draw", emit, 2);
+    preset_rows(linkage_lab, buttons, "Removes everything, and starts a drawing", emit, 2);
 }
 
 void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
@@ -148,7 +148,7 @@ void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::st
     if (number_field(name.c_str(), rate, angular ? 1.0f : 0.01f, -most, most,
                      angular ? "%.0f deg/s" : "%.2f m/s"))
         run_at(part, drive.joint, rate, emit);
-    explain("How fast the motor runs while time passes. 0 stops it.");
+    explain("The motor's speed while the simulation runs. 0 stops it.");
 }
 
 /// A field for a joint's value, in degrees or metres.
@@ -193,7 +193,7 @@ void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit&
     };
     end("min", range->minimum);
     end("max", range->maximum);
-    if (row_button(("No limit of " + joint).c_str(), 1, true, "Takes the joint's range away"))
+    if (row_button(("No limit of " + joint).c_str(), 1, true, "Removes the joint's range"))
         emit("linkage.range", {{"joint", joint}, {"off", true}});
     end_row();
 }
@@ -223,7 +223,7 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
         for (const LinkageDrive& each : part.drives)
             emit.continuously("linkage.release", {{"joint", each.joint}});
     if (row_button("Other mode", 2, !part.linkage().closures.empty(),
-                   "Assembles the same bars another way, with the drivers where they are: each in turn"))
+                   "Assembles the same bars in another way, each in turn; the drivers do not move"))
         emit("linkage.other_mode");
     end_row();
 }

@@ -169,7 +169,7 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
                              .cause = "passed a dead point: " + (line.empty() ? "" : line + "; ") +
                                       "the linkage switched to its other assembly mode",
                              .buttons = {{"Other mode",
-                                          "Runs linkage.other_mode: back to the mode before",
+                                          "Runs linkage.other_mode: returns to the previous mode",
                                           {{"linkage.other_mode", {{"nearest", true}}}}}}});
     }
     if (is.stopped && is.stopped != was.stopped) {
@@ -206,7 +206,7 @@ const Past& linkage_past() {
                            .plot_help =
                                "Plotted below the scene for the last ten seconds: the angle at the selected "
                                "joint, its speed, how well the coupler pushes, or the motor",
-                           .ghosts_help = "Where the bars were, every half second",
+                           .ghosts_help = "Shows the bars at every half second",
                            .pose = lines_of,
                            .same_joints = same_joints,
                            .incidents = incidents_of};

@@ -298,7 +298,7 @@ std::span<const FieldText> field_texts<ik::SketchPoint>() {
 void set_bar_length(LinkageSketch& sketch, std::size_t index, double wanted) {
     const ik::SketchBar& bar = sketch.bars[index];
     if (bar.points.size() != 2)
-        throw Refused("bar \"" + bar.name + "\" has more than two joints: move those");
+        throw Refused("bar \"" + bar.name + "\" has more than two joints: move the joints instead");
     LinkageSketch held = sketch;
     if (floating_bars(held)[index]) held.points[bar.points[0]].hold = SketchHold::Pinned;
     const ik::Linkage linkage = shape_of(held).linkage;
@@ -340,13 +340,13 @@ void add_sketch_commands(CommandTable& table) {
                              "Adds a bar between two joints, and the joints where there are none", add_bar));
     table.add(sketch_command("linkage.pin", "Pin a joint to the ground",
                              {point, switch_argument("on", "toggles if omitted")},
-                             "Pins a joint to the ground, or lets it move again", pin));
+                             "Pins a joint to the ground, or unpins it", pin));
     std::vector<Argument> line = field_arguments(guide_fields(), field_texts<ik::SketchPoint>());
     line.insert(line.begin(), point);
     table.add(sketch_command("linkage.guide", "Slide a joint on a line", std::move(line),
                              "Keeps a joint on a straight line through its position", guide));
     table.add(sketch_command("linkage.move", "Move a joint of the drawing", {point, place_argument("to")},
-                             "Puts a joint somewhere else: its bars change their lengths", move));
+                             "Moves a joint: its bars change their lengths", move));
     table.add(sketch_command(
         "linkage.length", "Set a bar's length",
         {bar_argument(true, "which bar"), {.name = "length", .help = "metres", .low = 1e-6, .high = 1e6}},
@@ -374,7 +374,7 @@ void add_sketch_commands(CommandTable& table) {
     table.add({.name = "linkage.remove_selected",
                .title = "Delete selection",
                .arguments = {},
-               .help = "Removes the joint that is selected",
+               .help = "Removes the selected joint",
                .effect = Effect::Edit,
                .apply = [](Workspace& workspace, const Arguments&) {
                    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);

@@ -274,7 +274,7 @@ class ControlFields {
                 glm::vec3 edited = shown;
                 if (vector_field("position, m", edited, 0.01f, low(), high(), "%.3f"))
                     set(dpoint(edited_vector(at, shown, edited)));
-                explain("Where the control is, in metres along each axis.");
+                explain("The control's position, in metres along each axis.");
                 break;
             }
             case rig::ControlKind::Rotation: {
@@ -292,7 +292,7 @@ class ControlFields {
     void limits() const {
         if (!control_.minimum && !control_.maximum) return;
         reading("limits", "%s", limits_text(control_).c_str());
-        explain("A drag stops at them.");
+        explain("A drag stops at these limits.");
     }
     /// A switch for each end, and the end itself. A new end starts at the control's value.
     void edit_limits() const {
@@ -325,7 +325,7 @@ class ControlFields {
                 : vector_field(field.c_str(), edited, 0.01f, glm::vec3(-max_control), glm::vec3(max_control),
                                "%.3f");
         if (changed) set_end(in_kind(edited_vector(*limit, end, edited)));
-        explain("Where a drag stops.");
+        explain("A drag stops here.");
     }
     glm::dvec3 here() const {
         if (const auto* number = std::get_if<double>(&value_)) return glm::dvec3(*number, 0.0, 0.0);

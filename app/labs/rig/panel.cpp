@@ -95,7 +95,7 @@ void solve_rows(const RigPanel& panel) {
     if (row_button("Forward", 2, true, "Runs the units, from controls to bones, as every tick does"))
         panel.emit("rig.solve", {{"direction", "forward"}});
     if (row_button("Backward", 2, true,
-                   "Sets the controls so that the bones stay as they are, if possible. Starts a take"))
+                   "Sets the controls so that the bones keep their poses, if possible. Starts a take"))
         panel.emit("rig.solve", {{"direction", "backward"}});
     end_row();
     if (!panel.part.backward) return;
@@ -119,7 +119,8 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     time_rows(workspace, emit);
     const FoldingSection open(workspace, "Export", emit, false);
     if (!open) return;
-    if (row_button("Copy as C++", 1, true, "This rig, as it is now, as a program that uses the library"))
+    if (row_button("Copy as C++", 1, true,
+                   "This rig in its present state, as a program that uses the library"))
         emit("rig.copy");
     end_row();
     picture_rows(emit);
@@ -157,7 +158,7 @@ void pending_rows(const RigPanel& panel, std::size_t element) {
     text_line(
         "pending", rig::name(pending),
         "An element stores a local and a global transform. Writing one makes the other pending, along with "
-        "the global ones of all elements below. A pending one is worked out when something reads it.");
+        "the global ones of all elements below. A pending one is computed when something reads it.");
     if (row_button(selected.several() ? "Read them" : "Read it", 2, true,
                    "Computes the pending transforms from here up to the root, and says how many there were"))
         panel.emit("rig.read", {which(panel.part, selected.all())});

@@ -223,7 +223,7 @@ const Past& rig_past() {
         .plot_help =
             "Plotted below the scene for the last ten seconds: how the selected element is "
             "turned within its parent, from its initial pose",
-        .ghosts_help = "Where the bones were, every half second",
+        .ghosts_help = "Shows the bones at every half second",
         .pose = lines_of,
         .same_joints = same_elements,
         .incidents = incidents_of};

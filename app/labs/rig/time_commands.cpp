@@ -180,7 +180,7 @@ void add_solve_commands(CommandTable& table) {
         "Selects elements, a unit, or both", select, Effect::Look));
     table.add("rig.read", "Read the pose of elements",
               {element_argument("name", false, "of the element"), name_list_argument("names", "name")},
-              "Reads the poses of elements, and says how many transforms had to be worked out", Effect::Look,
+              "Reads the poses of elements, and says how many transforms were worked out", Effect::Look,
               read);
     table.add("rig.copy", "Copy the rig as C++", {},
               "Copies the rig to the clipboard as a C++ program that uses the library", Effect::Look, copy);
@@ -396,8 +396,8 @@ void add_time_commands(CommandTable& table) {
     table.add("rig.time", "Show a moment of the take",
               {number_argument("seconds", "as the clock shows them", 0, 1e9),
                integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
-              "Pauses and goes to a moment of the take, earlier or later: exactly what playing "
-              "would show there",
+              "Pauses and goes to a moment of the take, earlier or later: shows exactly the pose that "
+              "playing would",
               Effect::Look, go);
     table.add(
         {.name = "rig.rates",

@@ -74,7 +74,7 @@ void walk_fields(const RigPart& part, const std::vector<std::size_t>& controls, 
     if (!turns) return;
     bool turn = walk.turn;
     if (ImGui::Checkbox("Looks along the path", &turn)) set("turn", turn, true);
-    explain("The control turns with the path. Off, it keeps the rotation that it has.");
+    explain("The control turns with the path. Off: it keeps its rotation.");
 }
 
 std::string clip_text(const RigPart& part) {
@@ -104,11 +104,11 @@ void clip_rows(const RigPart& part, Emit& emit) {
         if (row_button("Record", 3, true, "Starts a new take, and keeps it as a clip at Stop"))
             emit("rig.clip.start");
     } else if (row_button("Stop", 3, take.last > 0,
-                          "Keeps how the bones moved since Record. A change of the rig stops it too")) {
+                          "Keeps the bones' motion since Record. Changing the rig stops it too")) {
         emit("rig.clip.record");
     }
     if (running) {
-        if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");
+        if (row_button("Cancel", 3, true, "Frames solved so far are kept")) emit("rig.clip.cancel");
     } else if (row_button(
                    "Solve", 3, part.clip != nullptr,
                    "Backward: finds the controls for each frame; the timeline shows the errors left")) {

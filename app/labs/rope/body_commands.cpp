@@ -249,13 +249,13 @@ void add_body_commands(CommandTable& table) {
                            "Merges its segments in pairs; it keeps its shape, motion and material", merge));
     table.add(
         rope_command("rope.reverse", "Reverse a rope", {rope_argument(true, "which")},
-                     "Swaps the ends of a rope; pins, ties and motion stay where they are",
+                     "Swaps the ends of a rope; pins, ties and motion do not change",
                      [](RopeEdit& edit, const Arguments& given) { reverse_rope(edit, given.text("rope")); }));
     table.add(rope_command(
         "rope.move", "Move a rope, cloth or hair",
         {body_argument("rope", true, "of a rope, cloth or hair"), point_argument("by", true, "metres"),
-         switch_argument("hold", "true: what has no pins does not fall until rope.let_go")},
-        "Moves a rope, cloth or hair as it is, with its pins and its motion", move_body));
+         switch_argument("hold", "true: a body without pins does not fall until rope.let_go")},
+        "Moves a rope, cloth or hair with its pins; shape and motion do not change", move_body));
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove_named<body_of, &rope::World::remove>));
@@ -265,7 +265,7 @@ void add_body_commands(CommandTable& table) {
         "rope.pin", "Pin particles",
         {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
          point_argument("at", false, "metres; default: where it is"), each_argument("points", "particles")},
-        "Pins particles where they are, or at given points", pin));
+        "Pins particles in place, or at given points", pin));
     table.add(
         rope_command("rope.unpin", "Unpin particles",
                      {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},

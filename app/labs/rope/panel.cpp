@@ -205,8 +205,8 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
         if (force.empty()) continue;
         reading("", "%s", force.c_str());
         explain(
-            "The force that stretches it so far. A rope that cannot stretch tears only where pins pull it "
-            "apart.");
+            "The force that stretches it to this strain. A rope that cannot stretch tears only where pins "
+            "pull it apart.");
     }
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
@@ -214,7 +214,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
     if (row_button("Merge", 3, body.row > 2, "Merges segments in pairs; shape, motion and material stay"))
         emit("rope.merge", which);
     if (row_button("Reverse", 3, body.kind == rope::Body::Kind::Rope && body.count > 1,
-                   "Swaps its ends; pins, ties and motion stay where they are"))
+                   "Swaps its ends; pins, ties and motion do not change"))
         emit("rope.reverse", which);
     end_row();
     collision_rows(world, body, emit);
@@ -238,7 +238,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
     explain("The pull of the links at this particle. Without limit: pins are too far apart for them.");
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,
-                   pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
+                   pinned ? "Unpins the particle" : "Pins the particle in place"))
         emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
     if (row_button("Cut", 3, rope && body.count > 1, "Cuts the segment after this particle"))
@@ -280,9 +280,8 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     const auto which = [&] {
         return ArgumentList{{"rope", world.name(body)}, {"particles", SharedJson(Json(all))}};
     };
-    if (row_button("Pin", 3, pinned < all.size(), "Holds all of them where they are now"))
-        emit("rope.pin", which());
-    if (row_button("Unpin", 3, pinned > 0, "Lets all of them move again")) emit("rope.unpin", which());
+    if (row_button("Pin", 3, pinned < all.size(), "Pins all of them in place")) emit("rope.pin", which());
+    if (row_button("Unpin", 3, pinned > 0, "Unpins all of them")) emit("rope.unpin", which());
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
@@ -304,12 +303,12 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(part.world->shape(collider));
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
-    explain("Where the collider is. It can be dragged in the picture too.");
+    explain("The collider's position. It can be dragged in the picture too.");
     double force = 0.0;
     for (const ColliderForce& each : part.forces.value_or(std::vector<ColliderForce>()))
         if (each.collider == collider.id) force = glm::length(each.newtons);
-    reading("force", "%s", part.forces ? force_text(static_cast<float>(force)).c_str() : "time is still");
-    explain("The force of ropes, cloth and hair on it: contact, friction, and what hangs on it.");
+    reading("force", "%s", part.forces ? force_text(static_cast<float>(force)).c_str() : "not simulated yet");
+    explain("The force of ropes, cloth and hair on it: contact, friction and hanging load.");
     shape_rows(collider, name, emit);
     const auto found = std::ranges::find(part.swings, name, &Swing::collider);
     const bool swings = found != part.swings.end();
@@ -391,7 +390,7 @@ void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& e
     if (timed) curves("time per tick", "ms", &RopeSample::cost, 1e-3f, 1e-3f);
     if (!(part.world->settings().compliance > 0.0f))
         note("Without compliance, XPBD gives the same result as relaxation.");
-    if (row_button("Start again", 2, true, "Starts the race from where the first view is now"))
+    if (row_button("Start again", 2, true, "Restarts the race from the present state of the first view"))
         emit("rope.race");
     if (row_button("Copy as CSV", 2, true,
                    "Each solver's length error, energy and time per tick in the last ten seconds"))
@@ -426,7 +425,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     reading("length error", "%s", share_text(last.error).c_str());
-    explain("How far off the worst segment's length is, as you see it: after contact.");
+    explain("The largest length error of a segment, as shown: after contact.");
     reading("energy", "%.3f J%s", static_cast<double>(last.energy), part.quiet_ticks > 0 ? ", at rest" : "");
     const double lost = static_cast<double>(last_second(part.samples).contact_loss);
     MoreRows more;

@@ -172,7 +172,7 @@ const Past& rope_past() {
         .plot_help =
             "Plotted below the scene for the last ten seconds: of the selected particles or "
             "their body, or of all ropes if none is selected",
-        .ghosts_help = "Where the ropes were, every half second",
+        .ghosts_help = "Shows the ropes at every half second",
         .pose = lines_of,
         .same_joints = same_particles};
     return past;

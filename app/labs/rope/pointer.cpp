@@ -366,18 +366,18 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     const NamedWorld& world = picked_world(part, pick);
     if (const auto* collider = picked_collider(world, pick)) {
         return world.name(*collider) + " (" + rope::kind(collider->shape) +
-               "): drag moves it, and it pushes what it meets. Click selects it.";
+               "): drag moves it, and it pushes bodies in its way. Click selects it.";
     }
     if (const auto* tie = picked_tie(world, pick)) return world.name(*tie) + ": click selects it.";
     const auto place = picked_particle(world, pick);
     if (!place) {
-        if (part.tool == RopeTool::Pin) return "Click a particle to pin it, or to let it move again.";
+        if (part.tool == RopeTool::Pin) return "Click a particle to pin or unpin it.";
         if (part.tool == RopeTool::Cut) return "Drag across ropes and cloths to cut them.";
         if (part.tool != RopeTool::Tie) return {};
         if (!part.selection || !part.selection->of_particles())
             return "Click a particle, then another to tie it to.";
         return part.selection->body + ", particle " + std::to_string(part.selection->particle()) +
-               ": click what to tie it to. Escape forgets it.";
+               ": click the particle to tie it to. Escape cancels.";
     }
     const std::string name = world.name(*place->body) + ", particle " + std::to_string(place->index);
     switch (part.tool) {
@@ -389,13 +389,13 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
             if (cut_from(part, world, *place))
                 return name + ": click cuts from the selected particle to here.";
             if (place->body->kind == rope::Body::Kind::Cloth)
-                return name + ": click it, then where to cut to.";
+                return name + ": click it, then the end of the cut.";
             if (place->body->kind == rope::Body::Kind::Hair) return name + ": hair cannot be cut.";
             if (place->body->count > 1) return name + ": click cuts here.";
             break;
         case RopeTool::Tie:
             if (tied_from(part, world, *place)) return name + ": click ties it to the selected particle.";
-            return name + ": click it, then what to tie it to.";
+            return name + ": click it, then the particle to tie it to.";
     }
     if (const rope::Collider* holder = holder_of(world, place->body->first + place->index))
         return name + " (attached to " + world.name(*holder) + "): drag moves both.";

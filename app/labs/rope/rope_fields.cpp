@@ -98,11 +98,11 @@ std::span<const FieldText> field_texts<BodySettings>() {
                  "How long a rope, a row of a cloth or a strand of hair is. All its segments change in "
                  "proportion, and its mass with them; a weight on a particle stays. Default for a rope: the "
                  "distance of its ends."),
-        fine_row("width", "Of a cloth, across its rows."),
+        fine_row("width", "Width of a cloth, across its rows."),
         {.name = "segments",
          .label = "segments",
-         .help = "Of a rope or a strand of hair. A change keeps shape, motion and material; pins and ties "
-                 "stay where they are."},
+         .help = "Segments of a rope or a strand of hair. A change keeps shape, motion and material; pins "
+                 "and ties stay where they are."},
         {.name = "columns",
          .label = "columns",
          .help = "Particles in a row of a cloth. A change keeps shape, motion and material."},
@@ -118,8 +118,8 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .decimals = 4},
         {.name = "friction",
          .label = "friction",
-         .help =
-             "Coulomb's coefficient between it and colliders. Set to the world's, it follows that again."},
+         .help = "Coulomb's coefficient between it and colliders. Set it to the world's to follow the world "
+                 "again."},
         {.name = "stretch",
          .label = "stretch",
          .help =
@@ -147,16 +147,15 @@ std::span<const FieldText> field_texts<BodySettings>() {
             "rope needs some stretch to tear under a load: with 0.1 %/N it tears at 100 N. At 0, never."),
         {.name = "colour",
          .label = "colour",
-         .help =
-             "Its colour in the picture and the legend. By its kind, ropes, cloth and hair differ. Strain "
-             "shown as colour hides it.",
+         .help = "Its colour in the picture and the legend. By its kind: ropes, cloth and hair differ. "
+                 "Hidden while strain is shown as colour.",
          .listed = true,
          .choices = body_colours.rows},
         {.name = "pin_start", .help = "Pins a rope's first particle."},
         {.name = "pin_end", .help = "Pins a rope's last particle."},
         {.name = "pins", .help = "Which part of a cloth's first row is pinned; default: none"},
         {.name = "centre", .help = "The middle of the patch that hair grows from."},
-        {.name = "direction", .help = "Of growth; default: down, or outwards from a collider."},
+        {.name = "direction", .help = "Direction of growth; default: down, or outwards from a collider."},
         {.name = "strands", .help = "Strands of hair in the patch."},
         {.name = "spread", .help = "The radius of the patch."}};
     return texts;
@@ -214,7 +213,7 @@ std::span<const FieldText> field_texts<rope::Shape>() {
          .decimals = 3},
         {.name = "half_extents",
          .label = "half extents",
-         .help = "From the middle of a box to its faces, along its own axes: half its size.",
+         .help = "Half the size of a box along its own axes: from its middle to its faces.",
          .step = 0.005f,
          .decimals = 3},
         {.name = "rotation",
@@ -227,22 +226,21 @@ std::span<const FieldText> field_texts<rope::Shape>() {
 
 template <>
 std::span<const FieldText> field_texts<rope::Drive>() {
-    static constexpr FieldText texts[] = {
-        {.name = "velocity",
-         .label = "moves at",
-         .help = "A steady velocity; what lies on it goes along. A plane stays, and its surface moves: a "
-                 "conveyor belt.",
-         .step = 0.02f,
-         .in_line = true},
-        {.name = "axis",
-         .label = "turns about",
-         .help = "The axis through its centre that it turns about.",
-         .in_line = true},
-        {.name = "spin",
-         .label = "turns by",
-         .help = "How fast it turns; what lies on it turns along.",
-         .step = 0.5f,
-         .decimals = 1}};
+    static constexpr FieldText texts[] = {{.name = "velocity",
+                                           .label = "moves at",
+                                           .help = "A steady velocity; bodies on it move along. A plane "
+                                                   "stays in place, and its surface moves: a conveyor belt.",
+                                           .step = 0.02f,
+                                           .in_line = true},
+                                          {.name = "axis",
+                                           .label = "turns about",
+                                           .help = "The axis through its centre that it turns about.",
+                                           .in_line = true},
+                                          {.name = "spin",
+                                           .label = "turns by",
+                                           .help = "How fast it turns; bodies on it turn with it.",
+                                           .step = 0.5f,
+                                           .decimals = 1}};
     return texts;
 }
 

@@ -235,7 +235,7 @@ bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
 
 Cure restart_cure() {
     return {"Restart",
-            "Puts everything where the last change left it; undo leads back here",
+            "Returns everything to its state after the last change; undo returns here",
             {{"rope.restart", {}}}};
 }
 

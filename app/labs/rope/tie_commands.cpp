@@ -96,7 +96,7 @@ void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit) {
     end("from", tie.a);
     end("to", tie.b);
     reading("tension", "%s", tension_text(world, tie).c_str());
-    explain("What it carries, once its ends are together. Without limit: pins are too far apart for it.");
+    explain("Its tension, once its ends are together. Without limit: pins are too far apart for it.");
     const rope::TieShape shape{.length = tie.length, .strength = tie.strength};
     FieldRows(shape, "rope.tie.set", emit, {{"name", name}}).rows("length", "strength");
     if (row_button("Remove", 3, true, "Removes the tie")) emit("rope.untie", {{"name", name}});
@@ -124,7 +124,7 @@ void collision_rows(const NamedWorld& world, const rope::Body& body, Emit& emit)
            "It collides with itself: a rope can be knotted, a cloth folded. Costs time where parts of it are "
            "close.");
     button("Hits all", all_bodies, collides_with_all(world, name),
-           "It collides with itself and with every rope and cloth that there is now.");
+           "It collides with itself and with every present rope and cloth.");
     end_row();
 }
 

@@ -160,7 +160,7 @@ void add_walker_commands(CommandTable& table) {
         {text_argument("path", false,
                        "a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file; if omitted, the stick figure"),
          text_argument("clip", false, "which of its clips; omitted: the first; empty: it stands"),
-         point_argument("at", false, "where the origin of its file is, metres")},
+         point_argument("at", false, "position of its file's origin, metres")},
         "Makes the capsules of a character colliders that follow its clip; replaces an earlier character",
         enter));
     table.add(rope_command("rope.character.remove", "Remove the character", {},

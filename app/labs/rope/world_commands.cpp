@@ -76,7 +76,7 @@ void add_world_commands(CommandTable& table) {
     table.add(
         rope_command("rope.reset", "Reset the Rope lab", {}, "Resets this lab to its first state", reset));
     table.add(part_command<RopePart>(rope_lab, "rope.restart", "Restart the ropes", {},
-                                     "Puts everything where the last change left it", restart));
+                                     "Returns everything to its state after the last change", restart));
     table.add("rope.preset", "Open a rope preset",
               {choice_argument("name", true, "which scene",
                                names(rope_scenes(), [](const auto& each) { return each.name; }))},
@@ -92,7 +92,7 @@ void add_world_commands(CommandTable& table) {
     std::vector<Argument> wind = field_arguments(wind_fields(), wind_texts());
     wind.front().name = "velocity", wind.front().required = true;
     table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
-                           "Sets the wind that cloth, ropes and hair are in", settings));
+                           "Sets the wind on cloth, ropes and hair", settings));
     table.add(rope_command("rope.jitter", "Set the frame rate", field_arguments<Jitter>(),
                            "Sets the frame rate, and makes frames uneven, as in a program that stutters",
                            set_jitter));
@@ -221,14 +221,15 @@ void add_collider_commands(CommandTable& table) {
     table.add(rope_command("rope.collider.set", "Change a collider", std::move(set_arguments),
                            "Sets the position, size or rotation of a collider", set));
     table.add(rope_command("rope.collider.move", "Move a collider",
-                           {name_argument(), point_argument("to", true, "where its centre goes, metres")},
-                           "Moves a collider; it pushes what it meets", move));
+                           {name_argument(), point_argument("to", true, "its centre's new position, metres")},
+                           "Moves a collider; it pushes bodies in its way", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
                            "Removes a collider", remove_named<collider_of, &rope::World::remove_collider>));
     std::vector<Argument> drive = field_arguments<rope::Drive>();
     drive.insert(drive.begin(), name_argument());
     table.add(rope_command("rope.collider.drive", "Move a collider steadily", std::move(drive),
-                           "Moves and turns a collider steadily; it carries what lies on it", set_drive));
+                           "Moves and turns a collider steadily; it carries bodies that lie on it",
+                           set_drive));
     std::vector<Argument> swing = field_arguments<Swing>();
     swing.insert(swing.begin(),
                  {name_argument(), point_argument("by", false, "metres to each side; 0: off")});
@@ -302,7 +303,7 @@ void add_look_commands(CommandTable& table) {
         {rope_argument(false, "of the particle"), particle_argument(false, "which; omitted: the whole rope"),
          collider_argument("collider", false, "instead of a particle"),
          tie_argument("tie", false, "instead of a particle"), particles_argument(),
-         switch_argument("add", "true: adds particles of the same rope, or takes one out")},
+         switch_argument("add", "true: adds particles of the same rope, or removes one")},
         "Selects particles, a collider or a tie; nothing if all are omitted", select, Effect::Look));
     table.add(rope_command(
         "rope.hold", "Hold particles",

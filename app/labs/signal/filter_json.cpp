@@ -52,7 +52,7 @@ constexpr FieldText interp_to_exact[]{
 constexpr FieldText scale_bias_clamp[]{
     text("map_range", "map range", "First step: maps the in range to the out range, beyond its ends too."),
     text("in_range", "in range", "The range that is mapped. Only with map range."),
-    text("out_range", "out range", "What the ends of the in range become. Only with map range."),
+    text("out_range", "out range", "The range that it is mapped to. Only with map range."),
     text("scale", "scale", "Second step: the value is multiplied by this, then the bias is added."),
     text("bias", "bias", "Second step: added after the value is multiplied by scale."),
     text("clamp", "clamp", "Third step: keeps the value between clamp min and clamp max."),

@@ -217,7 +217,7 @@ void add_fit_commands(CommandTable& table) {
     fitting.finish = finish_fit;
     table.add(std::move(fitting));
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", "Stop the fit", {},
-                                       "Stops a running fit; what is fitted so far is kept", cancel));
+                                       "Stops a running fit; filters fitted so far are kept", cancel));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.fit.draw", "Draw the desired response",
         {number("from", "seconds", 1e3), number("from_value", "the response there", max_amplitude),

@@ -39,7 +39,7 @@ void input_section(const SignalPart& part, Emit& emit) {
     if (!input.file) why_not[static_cast<int>(InputKind::Csv)] = "give a file below";
     if (choice_field("kind", chosen, titles.data(), 6, why_not))
         emit("signal.input", {{"kind", input_kinds.name(static_cast<InputKind>(chosen))}});
-    explain("What goes into the first filter.");
+    explain("The input of the first filter.");
     const bool wave =
         input.kind == InputKind::Square || input.kind == InputKind::Sine || input.kind == InputKind::Noise;
     if (wave) {
@@ -151,7 +151,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         colour_mark(stage_colour(palette, stage));
         bool on = stage.enabled;
         if (ImGui::Checkbox("##on", &on)) emit("signal.filter.enable", {{"at", i}, {"on", on}});
-        if (ImGui::IsItemHovered()) tooltip("Off, its input passes unchanged");
+        if (ImGui::IsItemHovered()) tooltip("Off: its input passes unchanged");
         ImGui::SameLine();
         const float width = std::max(20.0f, ImGui::GetContentRegionAvail().x);
         const bool selected = part.selected == i;
@@ -338,12 +338,12 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     const char* const recording = "Plays the input from its start while you drag the output ball";
     if (part.wanted.empty()) {
         note("Draw the response that you want in the plot, record it by hand, or open it from a file.");
-        if (row_button("Draw from the output", 1, true, "Starts from what the filters give now"))
+        if (row_button("Draw from the output", 1, true, "Starts from the present output"))
             emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
         if (row_button("Record by hand", 1, true, recording)) emit("signal.fit.record");
     } else {
         if (part.fitting) {
-            if (row_button("Cancel", 3, true, "What is fitted so far is kept")) emit("signal.fit.cancel");
+            if (row_button("Cancel", 3, true, "Filters fitted so far are kept")) emit("signal.fit.cancel");
         } else if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) {
             emit("signal.fit");
         }

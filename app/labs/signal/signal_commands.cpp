@@ -159,7 +159,7 @@ void add_filter_commands(CommandTable& table) {
                                        "output of the one above",
                                        turn<&SignalStage::beside>));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
-                                       "Removes the filter that is selected", remove_selected));
+                                       "Removes the selected filter", remove_selected));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.select", "Select a filter",
         {filter_argument(index_argument("at", false, "which filter; none if omitted", max_stages))},
@@ -241,7 +241,7 @@ void add_input_commands(CommandTable& table) {
          text_argument("path", false, "of csv: a file with a time and a value in each row"),
          text_argument("time", false, "of csv: its column, by name or number; found by its name if omitted"),
          text_argument("value", false, "of csv: its column, in the same way")},
-        "Sets what goes into the first filter; omitted settings are kept", set_input));
+        "Sets the input of the first filter; omitted settings are kept", set_input));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.hand", "Move the hand",
         {{.name = "value", .help = "where the hand is", .low = -max_amplitude, .high = max_amplitude}},

@@ -117,7 +117,7 @@ std::string SignalLab::hint(const Workspace& workspace, PickId pick) const {
     const SignalPart& part = signal_part(workspace);
     const bool hand = part.input.kind == InputKind::Hand;
     if (pick == output_pick && part.recording)
-        return "The output: drag it the way it should move; letting go ends the recording.";
+        return "The output: drag it as it should move; releasing it ends the recording.";
     if (pick == hand_pick)
         return hand ? "The input: drag it up and down." : "The input: drag it to take it over by hand.";
     if (pick == output_pick) return "The output of the whole chain.";

@@ -27,8 +27,8 @@ inline constexpr EnumNames<InputKind, 6> input_kinds{
      {"square", "Square wave", "Jumps between two values."},
      {"sine", "Sine", "A steady swing."},
      {"noise", "Noise", "A slow drift with sensor noise."},
-     {"recorded", "Recorded", "What the hand did last, over and over."},
-     {"csv", "CSV", "The rows of a file, over and over."}}};
+     {"recorded", "Recorded", "The last motion of the hand, in a loop."},
+     {"csv", "CSV", "The rows of a file, in a loop."}}};
 
 inline constexpr double min_input_period = 0.02, max_input_period = 60.0;  ///< seconds
 inline constexpr double max_amplitude = 1e6;

@@ -405,7 +405,7 @@ TEST_F(SceneWithAFile, KeepsWhatCouldNotBeReadBesideItsEdits) {
     test::write(folder_ / "model.glb", "the model");
     const std::vector<LabNote> notes = load_scene_file(again, folder_ / "other.json");
     ASSERT_EQ(notes.size(), 1u);
-    EXPECT_TRUE(test::says(notes[0].text, "as it was saved Changes are left out"));
+    EXPECT_TRUE(test::says(notes[0].text, "its last save Changes are left out"));
     EXPECT_TRUE(notes[0].whole);
     EXPECT_EQ(again.document.get<FilePart>("file").edits, 7);
     EXPECT_FALSE(save_scene(again).contains("stand_ins"));

@@ -114,7 +114,7 @@ TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndShowsNoGizmo) {
     EXPECT_EQ(state()["selected"], nullptr) << "Escape forgets the first end";
     click("above", 4);
     click(no_pick);
-    EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "above particle 4 click what to tie Escape"));
+    EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "above particle 4 click the particle to tie Escape"));
     click("below", 0);
     EXPECT_EQ(world().state().ties.size(), 1u);
 }

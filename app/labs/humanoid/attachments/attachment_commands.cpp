@@ -78,14 +78,14 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<AttachmentShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "length", .help = "From the held end to the free end."},
-        {.name = "segments", .help = "How many along its length."},
-        {.name = "width", .help = "Of a cloth, or of the patch that hair grows on."},
-        {.name = "thickness", .help = "Of the rope, a hair or the cloth."},
-        {.name = "strands", .help = "How many hairs there are."},
+        {.name = "length", .help = "Length from the held end to the free end."},
+        {.name = "segments", .help = "Number of segments along its length."},
+        {.name = "width", .help = "Width of a cloth, or of the patch that hair grows on."},
+        {.name = "thickness", .help = "Thickness of the rope, a hair or the cloth."},
+        {.name = "strands", .help = "Number of hairs."},
         {.name = "offset",
-         .help = "From the bone to where it is held, in the axes of the character at rest; if omitted, "
-                 "just off the body."},
+         .help = "From the bone to the held end, in the axes of the character at rest; if omitted, just off "
+                 "the body."},
         {.name = "direction",
          .help = "The direction it points in at first, in the axes of the character at rest."}};
     return texts;
@@ -142,7 +142,7 @@ void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
     reading(each.name.c_str(), "%son %s",
             (each.name + ' ').starts_with(kind + ' ') ? "" : (kind + ' ').c_str(),
             panel.part.called(*panel.part.skeleton().find(each.node)).c_str());
-    if (row_button("Remove", 1, true, "Takes it off the character"))
+    if (row_button("Remove", 1, true, "Removes it from the character"))
         panel.emit("humanoid.detach", {{"name", each.name}});
     end_row();
     ImGui::PopID();
@@ -166,9 +166,10 @@ void holder_field(const HumanoidPanel& panel) {
 }  // namespace
 
 void add_attachment_commands(CommandTable& table) {
-    std::vector<Argument> arguments{node_argument("bone", true, "a mapped bone, or a node, by name"),
-                                    choice_argument("kind", true, "what", attachment_kinds.names()),
-                                    text_argument("name", false, "a new one; if omitted, after its kind")};
+    std::vector<Argument> arguments{
+        node_argument("bone", true, "a mapped bone, or a node, by name"),
+        choice_argument("kind", true, "what", attachment_kinds.names()),
+        text_argument("name", false, "a new name; if omitted, made from its kind")};
     for (Argument& each : field_arguments<AttachmentShape>()) arguments.push_back(std::move(each));
     table.add({.name = "humanoid.attach",
                .title = "Attach a rope, hair or cloth",
@@ -188,7 +189,7 @@ void add_attachment_commands(CommandTable& table) {
                       return names(humanoid_part(w).attachments.list,
                                    [](const Attachment& each) { return each.name; });
                   })},
-        "Takes a rope, hair or a cloth off the character", [](HumanoidPart& part, const Arguments& given) {
+        "Removes a rope, hair or a cloth from the character", [](HumanoidPart& part, const Arguments& given) {
             remove_attachment(part.attachments, given.text("name"));
         }));
 }
@@ -268,7 +269,8 @@ void attachment_rows(const HumanoidPanel& panel) {
     if (chosen && panel.part.node_of(suited)) kept.attach_to = humanoid::name(suited);
     holder_field(panel);
     explain(
-        "What it hangs from. A rope on Hips is a tail, hair on Head a ponytail, a cloth on Chest a cape.");
+        "The bone it hangs from. A rope on Hips is a tail, hair on Head a ponytail, a cloth on Chest a "
+        "cape.");
     const bool room = panel.part.attachments.list.size() < max_attachments;
     if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "No more can be added"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});

@@ -45,9 +45,8 @@ std::span<const FieldText> field_texts<FileSpace>() {
          .choices = up_axes.rows},
         {.name = "positions",
          .label = "root",
-         .help =
-             "What the positions of the root in a BVH do: replace its OFFSET or be added to it. Chosen so "
-             "that the feet are on the floor",
+         .help = "Whether the root's positions in a BVH replace its OFFSET or are added to it. Chosen so "
+                 "that the feet are on the floor",
          .more = true,
          .listed = true,
          .choices = root_positions.rows}};
@@ -463,7 +462,7 @@ void add_character_commands(CommandTable& table) {
                             "Sets whether a BVH's root positions replace its OFFSET or are added to it"));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.t_pose", "Show the T-pose",
-        {{.name = "on", .type = ArgumentType::Boolean, .help = "false: shows the rest pose as it is"}},
+        {{.name = "on", .type = ArgumentType::Boolean, .help = "false: shows the file's own rest pose"}},
         "Shows the rest pose with arms straight out to the sides and legs straight down", set_t_pose));
 }
 
@@ -604,8 +603,8 @@ void add_humanoid_file_commands(CommandTable& table) {
                clip_argument("clip", "which one; default: the chosen one, or the first"),
                switch_argument("all", "writes every clip, each to a file with its name added"),
                number_argument("fps", "frames per second; default: the clip's own", min_rate, largest_rate)},
-              "Writes a clip with everything that IK does to it; says how close the file comes, and "
-              "what Motion lint finds in it",
+              "Writes a clip as shown, after IK; says how far the file is from it, and what Motion lint "
+              "finds in it",
               Effect::Look, export_shown);
     table.add({.name = "humanoid.cure",
                .title = "Fix faults in a clip",

@@ -66,7 +66,7 @@ std::string why_no_fix(const HumanoidPart& part, const Finding& finding, JudgedC
                    : "not in the clip: IK, curves or springs make it";
     return finding.fault == Limit   ? "the pose may be meant; wider limits accept it"
            : finding.fault == Scale ? "the skeleton is that size; the file's unit corrects it"
-                                    : "no change of a few keys mends it";
+                                    : "changing a few keys does not fix it";
 }
 
 bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skeleton& skeleton) {
@@ -339,7 +339,7 @@ static void findings_rows(const HumanoidPanel& panel) {
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " fps");
     const bool any = std::ranges::any_of(findings, &Finding::has_cure);
     if (row_button("Fix all", 1, any,
-                   any ? "Fixes what has a fix, as one undo step, and says why for the rest"
+                   any ? "Fixes every fault that has a fix, in one undo step; says why the rest have none"
                        : "None has a fix; each one's tooltip says why"))
         panel.emit("humanoid.cure", {});
     end_row();
@@ -375,14 +375,13 @@ void export_rows(const HumanoidPanel& panel) {
                       one = path.empty() ? paths_of_clips(loaded.character, any)[clip].string() : path;
     text_field("write to", path, one.c_str());
     explain(
-        "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it. "
-        "glTF also takes ropes, hair, cloth and the object in the hands, as bones with a mesh; BVH takes "
-        "none.");
+        "A .gltf, .glb or .bvh file for the chosen clip, or the first, after IK. glTF also stores ropes, "
+        "hair, cloth and the held object, as bones with a mesh; BVH stores none of them.");
     const int buttons = clips.size() > 1 ? 2 : 1;
     if (row_button("Export clip", buttons, true, "Asks before it replaces a file"))
         panel.emit("humanoid.export", {{"path", one}});
-    if (buttons == 2 && row_button("Export all", 2, true,
-                                   "Each clip to a file of its own: its name is added to the file's name"))
+    if (buttons == 2 &&
+        row_button("Export all", 2, true, "Each clip to its own file: its name is added to the file's name"))
         panel.emit("humanoid.export", {{"path", any}, {"all", true}});
     end_row();
     const std::string which = one_of_clips_text(loaded.character, clips[clip].name);
@@ -392,8 +391,8 @@ void export_rows(const HumanoidPanel& panel) {
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
     text_field("map file", state.map_file, "bones.json");
-    explain("A bone map file to save to. It suits every character with the same node names.");
-    if (row_button("Save map", 2, !state.map_file.empty(), "To the file; asks before it replaces one"))
+    explain("A bone map file to save to. It fits every character with the same node names.");
+    if (row_button("Save map", 2, !state.map_file.empty(), "Saves to the file; asks before it replaces one"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
     if (row_button("Load map", 2, true, "Chooses a file, and loads it"))
         panel.emit("scene.open_dialog", {{"by", "humanoid.map.load"}});

@@ -42,7 +42,7 @@ constexpr int max_times_taken = 12;
 PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, const std::string& clip) {
     const LoadedCharacter& from = *source.loaded;
     if (times_taken(from) >= max_times_taken)
-        throw std::runtime_error("the clip was taken to " + std::to_string(max_times_taken) +
+        throw std::runtime_error("the clip was retargeted to " + std::to_string(max_times_taken) +
                                  " characters already, the maximum: export it, and load that file");
     const std::filesystem::path path(from.path);
     const Clip& wanted = clip_named(from.character, path, clip);
@@ -116,17 +116,17 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
 }
 
 void add_motion_commands(CommandTable& table) {
-    table.add(followed(
-        {.name = "humanoid.motion.load",
-         .title = "Load another character's motion",
-         .arguments = {text_argument("path", true,
-                                     "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
-                       text_argument("clip", false, "which one, by name; default: the first")},
-         .help = "Plays a clip of another character on this one, by the two bone maps: limbs, hands and "
-                 "fingers point in the same directions, feet stand where the other's do, and the hips move "
-                 "in proportion to the legs",
-         .effect = Effect::Edit,
-         .apply = load_motion}));
+    table.add(
+        followed({.name = "humanoid.motion.load",
+                  .title = "Load another character's motion",
+                  .arguments = {text_argument("path", true,
+                                              "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
+                                text_argument("clip", false, "which one, by name; default: the first")},
+                  .help = "Plays a clip of another character on this one through the two bone maps: limbs, "
+                          "hands and fingers point in the same directions, feet stand where the other's do, "
+                          "and the hips move in proportion to the legs",
+                  .effect = Effect::Edit,
+                  .apply = load_motion}));
 }
 
 }  // namespace tendril::app

@@ -256,7 +256,7 @@ void clip_strip(const HumanoidPanel& panel) {
         .ticks = ticks, .seconds = tick_seconds, .known = ticks, .bars = lint_marks(panel, ticks)};
     const TimeStripUse use = time_strip("clip", tick, strip);
     if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tooltip("The clip. Drag to see it at that time; the marks are what Motion lint has found.");
+        tooltip("The clip. Drag to see it at that time; the marks are the faults that Motion lint found.");
     if (use.moved) {
         const double time = std::min(tick * tick_seconds, duration);
         panel.emit.continuously("humanoid.clip",
@@ -329,7 +329,7 @@ std::span<const FieldText> field_texts<Playback>() {
          .more = true},
         {.name = "targets_travel",
          .label = "Targets travel",
-         .help = "Targets go along with a walk. Off: they stay where they are in the world.",
+         .help = "Targets move with a walk. Off: they stay in place in the world.",
          .more = true}};
     return texts;
 }

@@ -31,7 +31,8 @@ void curve_row(const HumanoidPanel& panel, std::size_t which) {
     reading(curve.first.c_str(), "%s",
             report_text(curve, panel.runtime.shown(panel.workspace).curves[which]).c_str());
     explain(("From " + curve.first + " to " + curve.last + ".").c_str());
-    settings_row(panel, curve.first, "humanoid.curve", "first", "Only clip and IK move it again");
+    settings_row(panel, curve.first, "humanoid.curve", "first",
+                 "Removes the curve: only clip and IK move the bones");
     ImGui::PopID();
 }
 
@@ -86,7 +87,7 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
         said = "All control points are on the first node: drag one away.";
     else if (report.bones_past_end > 0)
         said = count_text(report.bones_past_end, "bone") + (report.bones_past_end == 1 ? " goes" : " go") +
-               " on straight past the last control point, " +
+               " straight on past the last control point, " +
                length_text(static_cast<double>(report.past_end)) + " in all.";
     if (curve.jumped)
         said += (said.empty() ? "" : " ") + panel.part.skeleton()[chain.nodes()[*curve.jumped]].name +

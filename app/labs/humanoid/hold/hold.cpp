@@ -199,7 +199,7 @@ void release_hold(const IkNow&, HumanoidPart& part, const Arguments&) {
 
 void add_hold_commands(CommandTable& table) {
     const Argument to =
-        point_argument("to", false, "metres, of its middle; if never given, before the chest");
+        point_argument("to", false, "metres, of its middle; in front of the chest if never given");
     const Argument rotation{.name = "rotation",
                             .type = ArgumentType::Rotation,
                             .required = false,
@@ -212,8 +212,8 @@ void add_hold_commands(CommandTable& table) {
     table.add(ik_command("humanoid.hold_move", "Move the held object", {to, rotation},
                          "Sets the requested pose of the held object; it yields where the arms cannot follow",
                          move_hold));
-    table.add(ik_command("humanoid.release", "Let go of the object", {}, "Takes the hands off the object",
-                         release_hold));
+    table.add(
+        ik_command("humanoid.release", "Let go of the object", {}, "Releases the object", release_hold));
 }
 
 // The held object in the picture, the mouse and the panel.
@@ -294,7 +294,7 @@ void hold_rows(const HumanoidPanel& panel) {
         int chosen = 0;
         if (choice_field("object", chosen, titles.data(), static_cast<int>(titles.size())) && chosen > 0)
             panel.emit("humanoid.hold", {{"kind", held_kinds.name(static_cast<HeldKind>(chosen - 1))}});
-        explain("What both hands hold.");
+        explain("The object for both hands to hold.");
         return;
     }
     FieldRows(*hold, "humanoid.hold", panel.emit).rows("kind", "size", "hands", "with_body");
@@ -305,7 +305,7 @@ void hold_rows(const HumanoidPanel& panel) {
         told = verdict.text + ". " + verdict.why;
     }
     kept_note("held", told, 3);
-    if (row_button("Let go", 1, true, "Takes the hands off the object")) panel.emit("humanoid.release");
+    if (row_button("Let go", 1, true, "Releases the object")) panel.emit("humanoid.release");
     end_row();
 }
 

@@ -26,7 +26,7 @@ std::span<const FieldText> field_texts<HoldSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "kind",
          .label = "object",
-         .help = "What the hands hold.",
+         .help = "The object that the hands hold.",
          .listed = true,
          .choices = held_kinds.rows},
         {.name = "size",

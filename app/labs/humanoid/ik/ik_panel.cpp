@@ -58,7 +58,7 @@ void body_rows(const HumanoidPanel& panel, MoreRows& more) {
     if (!why.empty()) return note("Full-body IK is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
     const IkSettings& ik = panel.part.ik;
-    if (row_button("Remove all targets", 1, ik.has_targets(), "Lets go of all targets")) {
+    if (row_button("Remove all targets", 1, ik.has_targets(), "Removes the targets of all effectors")) {
         Json all = Json::array();
         for (const humanoid::Effector effector : all_effectors)
             if (ik.target(effector)) all.push_back(humanoid::name(effector));

@@ -274,12 +274,12 @@ std::span<const FieldText> field_texts<GroundSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "kind",
          .label = "ground",
-         .help = "What the character walks on.",
+         .help = "The ground that the character walks on.",
          .listed = true,
          .choices = ground_kinds.rows},
         {.name = "angle_deg",
          .label = "angle",
-         .help = "Of the slope, which rises along +Z, starting at 0.",
+         .help = "Angle of the slope, which rises along +Z, starting at 0.",
          .step = 0.1f,
          .decimals = 1},
         {.name = "step_height",
@@ -304,13 +304,12 @@ std::span<const FieldText> field_texts<BalanceSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "on",
          .label = "Balance",
-         .help =
-             "Hips and trunk move so that the centre of mass stays over the feet. Where that is not "
-             "enough a foot steps, while the simulation runs, or the hand stops short. Hands that hand IK "
-             "moves take no part."},
+         .help = "Hips and trunk move so that the centre of mass stays over the feet. If that is not enough, "
+                 "a foot steps while the simulation runs, or the hand stops short. Hands moved by hand IK "
+                 "take no part."},
         {.name = "reserve",
          .label = "reserve",
-         .help = "How far the centre of mass keeps from the edge of the feet. 0: it may come to the edge. "
+         .help = "How far the centre of mass stays from the edge of the feet. 0: it may come to the edge. "
                  "90 %: it stays in the middle.",
          .step = 0.5f,
          .decimals = 0,
@@ -358,17 +357,20 @@ std::span<const FieldText> field_texts<HandCurve>() {
     static constexpr FieldText texts[] = {
         {.name = "begin",
          .label = "from",
-         .help = "Until then, in the clip, the hand follows it.",
+         .help = "Until this time in the clip the hand follows it.",
          .step = 0.005f},
         {.name = "full",
          .label = "full from",
-         .help = "From then on the hand is on its target.",
+         .help = "From this time on the hand is on its target.",
          .step = 0.005f},
         {.name = "until",
          .label = "full to",
-         .help = "Until then the hand is on its target; afterwards it goes back to the clip.",
+         .help = "Until this time the hand is on its target; then it returns to the clip.",
          .step = 0.005f},
-        {.name = "end", .label = "to", .help = "From then on the hand follows the clip.", .step = 0.005f}};
+        {.name = "end",
+         .label = "to",
+         .help = "From this time on the hand follows the clip.",
+         .step = 0.005f}};
     return texts;
 }
 

@@ -163,7 +163,7 @@ void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom sho
         const auto chosen = static_cast<LimitsFrom>(from);
         panel.emit("humanoid.limits", taking(chosen, chosen == LimitsFrom::Motion ? turned : joints));
     }
-    explain(joints.size() == 1 ? "How far this joint may turn; the others stay as they are."
+    explain(joints.size() == 1 ? "How far this joint may turn; the others do not change."
                                : "How far each of these joints may turn, about its own axes.");
     if (const std::size_t still = joints.size() - turned.size(); still > 0 && !turned.empty())
         note("No clip turns " + std::to_string(still) + " of them: they cannot take the clips' range.");

@@ -260,7 +260,7 @@ void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, Solvers& s
         incidents.push_back({.kind = Incident::Kind::Jump,
                              .joint = node,
                              .name = name,
-                             .cause = name + " went on to another crossing of its curve",
+                             .cause = name + " jumped to another crossing of its curve",
                              .cure = "Open that bend."});
     }
 }
@@ -304,7 +304,7 @@ const Past& humanoid_past() {
         .plot_help =
             "Plotted below the scene over the last ten seconds: how far the selected "
             "effector is from its target, or how far the selected joint is turned from the T-pose",
-        .ghosts_help = "Shows where the body was, every half second",
+        .ghosts_help = "Shows the body's pose at every half second",
         .pose = lines_of,
         .same_joints = same_character,
         .incidents = incidents_of};

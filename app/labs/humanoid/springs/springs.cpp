@@ -75,7 +75,8 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
     explain("The largest angle between its bones and the clip now.");
-    settings_row(panel, each.node, "humanoid.spring", "node", "Only the clip moves it again");
+    settings_row(panel, each.node, "humanoid.spring", "node",
+                 "Removes the spring: only the clip moves the bones");
     ImGui::PopID();
 }
 

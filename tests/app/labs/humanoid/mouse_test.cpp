@@ -46,7 +46,7 @@ TEST_F(HumanoidMouse, DragsAnEffectorToATarget) {
     run("redo");
     click(at("left_hand"));
     press(true), press(false);
-    EXPECT_TRUE(targets().empty()) << "a double click lets go";
+    EXPECT_TRUE(targets().empty()) << "a double click releases it";
 }
 
 TEST_F(HumanoidMouse, TurnsASelectedEffectorByItsGizmo) {
