@@ -249,7 +249,7 @@ TEST(Incident, APoleTargetThatJumpsIsTheNamedCause) {
         EXPECT_EQ(all[0].kind, IncidentKind::PoleJump);
         EXPECT_EQ(all[0].frame, 60u);
         EXPECT_NEAR(all[0].amount, 4.0, 0.01);
-        EXPECT_EQ(std::string(all[0].cause).ends_with("the chain bends there with it"), follows);
+        EXPECT_EQ(std::string(all[0].cause).ends_with("the bend of the chain with it"), follows);
     }
 }
 

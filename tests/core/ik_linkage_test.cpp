@@ -568,8 +568,8 @@ TEST(Linkage, InvalidLinkagesAreRefusedByNameAndPlace) {
     bad([](auto& l) { l.links[1].axis = glm::dvec3(0.0); }, "links 1 axis longer than 0");
     bad([](auto& l) { l.links[1].minimum = l.links[1].rest + 1.0; }, "links 1 rest within its range");
     bad([](auto& l) { l.points[0].link = 9; }, "points 0 link index 9");
-    bad([](auto& l) { l.closures[0].second = l.closures[0].first; }, "closures 0 second another link");
-    bad([](auto& l) { l.links[1].name = l.links[0].name; }, "links 1 name no link before crank");
+    bad([](auto& l) { l.closures[0].second = l.closures[0].first; }, "closures 0 second other than its first");
+    bad([](auto& l) { l.links[1].name = l.links[0].name; }, "links 1 name no earlier link crank");
     const auto bad_ball = [&](double Link::*field, double value, const char* words) {
         bad(
             [&](auto& l) {

@@ -70,7 +70,7 @@ TEST(Expected, HoldsAValueOrAnError) {
 
 TEST(ExpectedDeathTest, ReadingAMissingValueEndsTheProgram) {
     const Expected<int> none(Result(ErrorCode::AlreadyExists, "twice"));
-    EXPECT_DEATH(static_cast<void>(*none), "a value was read where there is none: twice");
+    EXPECT_DEATH(static_cast<void>(*none), "a value was read from an error: twice");
 }
 
 TEST(Says, FindsNamesAndValuesInOrder) {

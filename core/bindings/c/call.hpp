@@ -124,7 +124,7 @@ std::span<Cpp> list(Call& call, const Place& place, C* elements, std::size_t cou
         return {};
     }
     if (count > most_elements) {
-        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has %zu elements; %zu are the most", count,
+        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has %zu elements; the maximum is %zu", count,
                     most_elements);
         return {};
     }

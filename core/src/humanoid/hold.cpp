@@ -52,8 +52,7 @@ Result check_held_object(const HeldObject& object) noexcept {
         for (int axis = 0; axis < 3; ++axis)
             if (!check_number("hold", "object", at[axis]))
                 return refused("hold", Argument("object.grips", i, "position"),
-                               "within 1e9 m of the character's origin once the object is where it was "
-                               "asked to be",
+                               "within 1e9 m of the character's origin with the object at its requested pose",
                                at[axis]);
     }
     return {};

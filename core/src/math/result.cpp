@@ -65,7 +65,7 @@ bool Result::operator==(const Result& other) const noexcept {
 namespace detail {
 
 void no_value(const char* message) noexcept {
-    std::fprintf(stderr, "tendril: a value was read where there is none: %s\n", message);
+    std::fprintf(stderr, "tendril: a value was read from an error: %s\n", message);
     std::abort();
 }
 

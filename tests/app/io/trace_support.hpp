@@ -150,7 +150,7 @@ class TraceMaker {
                 for (std::size_t i = at; i < frames.size(); ++i)
                     frames[i].target = root_ + glm::angleAxis(0.75, axis) * (frames[i].target - root_);
                 if (plant == Plant::Jump)
-                    trace = {std::move(frames), "target_jump", at, -1, "somewhere else", "", 0, -1, ""};
+                    trace = {std::move(frames), "target_jump", at, -1, "changes abruptly", "", 0, -1, ""};
                 break;
             case Plant::NanAtRoot:
                 frames[at].target = root_;

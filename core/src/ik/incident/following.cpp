@@ -54,18 +54,18 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
         const char* cause = nullptr;
         if (turns(math::cross(was, pole_was), math::cross(is, pole_is)) &&
             math::distance(*pose.pole, *latest_.pole) > math::distance(pose.root(), latest_.root()))
-            cause =
-                turns(bend(latest_, was), bend(pose, is))
-                    ? "the pole target is on another side from one frame to the next, and the chain bends "
-                      "there with it"
-                    : "the pole target is on another side from one frame to the next";
+            cause = turns(bend(latest_, was), bend(pose, is))
+                        ? "the pole target changes sides from one frame to the next, and the bend of the "
+                          "chain with it"
+                        : "the pole target changes sides from one frame to the next";
         detect_jump(pole_steps_, pole_was, pole_is, IncidentKind::PoleJump, cause);
     }
     const bool root =
         math::distance(pose.root(), latest_.root()) > math::distance(*pose.target, *latest_.target);
-    return detect_jump(steps_, was, is, root ? IncidentKind::Misplaced : IncidentKind::TargetJump,
-                       root ? "the root is somewhere else from one frame to the next, and the target is not"
-                            : "the target is somewhere else from one frame to the next");
+    return detect_jump(
+        steps_, was, is, root ? IncidentKind::Misplaced : IncidentKind::TargetJump,
+        root ? "the root's position changes abruptly between two frames, and the target's does not"
+             : "the target's position changes abruptly between two frames");
 }
 
 // Compares the middle one of five frames, or the middle two of six, with the path of the others.
@@ -93,10 +93,10 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
               offset > spike_step_ratio * std::max(steps, target_offset)))
             continue;
         found.amount = static_cast<double>(offset);
-        found.cause = point == &MotionSample::root ? "the root is aside for one frame"
+        found.cause = point == &MotionSample::root ? "the root is displaced for one frame"
                       : 2.0f * deviation(at(3).root, at(2).root, at(1).root) > offset
-                          ? "the whole chain is aside for one frame"
-                          : "the tip is aside for one frame";
+                          ? "the whole chain is displaced for one frame"
+                          : "the tip is displaced for one frame";
         return note(found);
     }
     if (n < 6) return;
@@ -142,7 +142,7 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
                      .frame = frames_ - repeat_.frames,
                      .last_frame = frames_ - 1,
                      .amount = static_cast<double>(repeat_.frames),
-                     .cause = "all joints are where they were a frame before, in the middle of a motion"},
+                     .cause = "all joints repeat the frame before, in the middle of a motion"},
                     repeat_.moved && both_moved(before, pose) && resumes(pose),
                     repeat_.target == *latest_.target});
     repeat_ = {};
@@ -400,7 +400,7 @@ void IncidentFinder::judge_jitter() {
           .joint = end_,
           .amount = amplitude,
           .hertz = 0.5 * static_cast<double>(crossings) * static_cast<double>(options_.fps) / (count - 1.0),
-          .cause = "the target is still, and the tip is not"});
+          .cause = "the target is still, but the tip moves"});
 }
 
 void IncidentFinder::Following::close() noexcept {
@@ -469,7 +469,7 @@ void IncidentFinder::finish_following() {
                   .frame = first,
                   .last_frame = frames_ - 1,
                   .amount = static_cast<double>(repeat_.frames),
-                  .cause = "all joints stay where they are to the end, and the target goes on"});
+                  .cause = "all joints stop until the end, while the target moves on"});
         }
     }
     const std::size_t best = find_lag();

@@ -167,7 +167,7 @@ ReachPose IncidentFinder::reaching(const ReachPose& pose) const {
 const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
     if (frame.target && !finite(*frame.target)) return "the target is not finite";
     if (frame.pole && !finite(*frame.pole)) return "the pole target is not finite";
-    if (frame.dt && !(*frame.dt > 0.0f)) return "dt is not positive, and something divides by it";
+    if (frame.dt && !(*frame.dt > 0.0f)) return "dt is not positive: look for a division by it";
     if (recent_.empty()) return text(FlipCause::Unexplained);
     const ReachPose& was = recent_.back();
     for (std::size_t i = 1; i < was.joints.size(); ++i)
@@ -225,7 +225,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
                         .last_frame = frames_,
                         .joint = i + 1,
                         .amount = static_cast<double>(off),
-                        .cause = beyond ? "the target is out of reach, and the bone gives way"
+                        .cause = beyond ? "the target is out of reach, and the bone stretches"
                                         : "nothing in the input explains it: lengths are not restored"});
     }
 }

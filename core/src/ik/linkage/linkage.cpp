@@ -78,11 +78,12 @@ Result check(const Linkage& linkage) noexcept {
         if (const Result bad = check_one_link(linkage, i); !bad) return bad;
         const std::string& name = linkage.links[i].name;
         if (!name.empty() && *linkage.find_link(name) < i)
-            return refused("linkage", {"links", i, "name"}, "that of no link before", std::string_view(name));
+            return refused("linkage", {"links", i, "name"}, "a name that no earlier link has",
+                           std::string_view(name));
     }
     for (std::size_t i = 0; i < linkage.closures.size(); ++i)
         if (const Closure& each = linkage.closures[i]; each.first == each.second)
-            return refused("linkage", {"closures", i, "second"}, "another link than its first", each.second);
+            return refused("linkage", {"closures", i, "second"}, "a link other than its first", each.second);
     return {};
 }
 

@@ -144,7 +144,7 @@ Result find_other_mode(LinkageWork& work, LinkageState& state, std::span<const L
     LinkageSolve from(work, goals, options);
     from.hold_drivers();
     if (work.columns == 0 || from.mode() == 0)
-        return none_found("other_mode: the drivers leave freedom, or nothing moves");
+        return none_found("other_mode: the drivers leave degrees of freedom, or nothing moves");
     const std::vector<JointPlace>& here = work.nearest = work.joints;
     const double place_here = place_in_order(work);
     double least = none;

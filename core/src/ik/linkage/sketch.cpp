@@ -71,9 +71,8 @@ class SketchTree {
         for (std::size_t i = 0; i < linkage_.links.size(); ++i)
             if (const std::string& name = linkage_.links[i].name;
                 !name.empty() && *linkage_.find_link(name) < i)
-                return sketch_refused(
-                    "bars, motors and guided points must have a name each of their own, got two \"" + name +
-                    "\"");
+                return sketch_refused("bars, motors and guided points must have different names, got two \"" +
+                                      name + "\"");
         if (const Result bad = check(linkage_); !bad) return bad;
         return std::move(linkage_);
     }
