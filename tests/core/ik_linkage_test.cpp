@@ -557,7 +557,7 @@ TEST(Linkage, InvalidLinkagesAreRefusedByNameAndPlace) {
         "motor \"crank\" within its range 0");
     refused([](auto& s) { s.motors[0].point = 3; }, "motor \"crank\" a point of its bar point \"D\"");
     refused([](auto& s) { s.motors[0].against = 2; }, "motor \"crank\" another bar bar \"rocker\"");
-    refused([](auto& s) { s.motors[0].name = "rocker"; }, "a name of their own two \"rocker\"");
+    refused([](auto& s) { s.motors[0].name = "rocker"; }, "different names two \"rocker\"");
     const auto bad = [](auto change, const char* words) {
         Linkage linkage = *linkage_from(*four_bar());
         change(linkage);

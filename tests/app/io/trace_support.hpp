@@ -259,7 +259,7 @@ class TraceMaker {
             }
             case Plant::Repeated:
                 frames[at] = frames[at - 1];
-                planted("repeated", -1, "a frame before");
+                planted("repeated", -1, "the frame before");
                 break;
             case Plant::Limit: {
                 const double most = bend_degrees(frames[at]) - 3.0;
