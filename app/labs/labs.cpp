@@ -249,7 +249,7 @@ void add_file_command(CommandTable& table, const Labs& labs) {
                .arguments = {text_argument("path", true, all_kinds(file_routes(labs))),
                              text_argument("by", false,
                                            "the command that opens it, such as humanoid.motion.load; "
-                                           "default: that of its kind"),
+                                           "default: the usual one for its kind"),
                              switch_argument("ask", "shows a choice if there are several ways to open it")},
                .help = "Opens a file of any kind, and the lab that reads it; undo restores what was before",
                .effect = Effect::Edit,

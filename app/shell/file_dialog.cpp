@@ -129,7 +129,7 @@ bool FileDialog::list() {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
                                ImGuiSelectableFlags_AllowDoubleClick)) {
-            explain(entry.folder ? "Shows what is in this folder" : "Double-click to choose it");
+            explain(entry.folder ? "Opens this folder" : "Double-click to choose it");
             continue;
         }
         if (entry.folder) {
@@ -252,9 +252,9 @@ void PictureOptions::video_rows() {
         explain("How many frames the turn has.");
     } else {
         if (number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s")) loop_ = 0;
-        explain("Where the video begins: this long before the latest moment.");
+        explain("The start of the video: this long before the latest moment.");
         if (number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s")) loop_ = 0;
-        explain("Where the video ends: this long before the latest moment.");
+        explain("The end of the video: this long before the latest moment.");
         number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest),
                      "%.2f");
         explain("1 is real time, below it is slow motion.");

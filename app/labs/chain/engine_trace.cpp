@@ -410,7 +410,7 @@ std::span<const FieldText> field_texts<TraceView>() {
          .choices = trace_hands.rows},
         {.name = "unit",
          .label = "unit",
-         .help = "What a length of 1 in the file is. The reason is shown above.",
+         .help = "The unit of lengths in the file. The reason is shown above.",
          .listed = true,
          .choices = trace_units.rows},
         {.name = "rotations",

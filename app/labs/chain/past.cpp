@@ -271,9 +271,7 @@ const Past& chain_past() {
                         return joint_curve(w, "twist of joint ",
                                            "Twist is only known along a curve and within limits.", twist_of);
                     }}},
-        .plot_help =
-            "Plotted below the scene over the last ten seconds; angles are those of the selected "
-            "joint",
+        .plot_help = "Plotted below the scene over the last ten seconds; angles are at the selected joint",
         .ghosts_help = "Shows the chain's pose at every half second",
         .pose = lines_of,
         .same_joints = same_joints,

@@ -24,7 +24,7 @@ Argument length_argument() {
 
 Argument position_argument() {
     return point_argument("position", false,
-                          "where it is placed, before its length is enforced; straight on if omitted");
+                          "its position, before its length is enforced; straight on if omitted");
 }
 
 void check_size(const ChainPart& part) {

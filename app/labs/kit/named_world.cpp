@@ -152,7 +152,7 @@ void NamedWorld::rename(std::string_view body, const std::string& name) {
     bodies_[renamed.index] = name;
 }
 void NamedWorld::set_colour(std::string_view body, BodyColour colour) {
-    if (find(body) == nullptr) refuse("set_colour", "that of a body", body);
+    if (find(body) == nullptr) refuse("set_colour", "the name of a body", body);
     colours_[id(body).index] = colour;
 }
 

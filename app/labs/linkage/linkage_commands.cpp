@@ -194,7 +194,7 @@ void other_mode(LinkagePart& part, const Arguments& given, LinkageRuntime& runti
         given.has("nearest") && given.boolean("nearest") ? ik::OtherMode::Nearest : ik::OtherMode::Next;
     if (!solver.other_mode(part.state, drivers, which) &&
         !switch_near_dead_point(part, solver, part.state, drivers))
-        throw Refused("no other assembly mode is found with the drivers where they are");
+        throw Refused("no other assembly mode was found for the drivers' present values");
     for (LinkageDrive& each : part.drives)
         if (is_running(each)) each.value = part.value_of(each.joint);
     part.copies = copies_of(*part.shape, part.state);

@@ -143,7 +143,7 @@ void unit_list(const RigPanel& panel) {
         ImGui::PopID();
     }
     if (many) ImGui::EndChild();
-    if (rows.empty()) note("No units: bones stay where they are.");
+    if (rows.empty()) note("No units: bones do not move.");
     keep_room("units", top);  // the warnings come and go
     order_buttons(panel, rows);
     add_unit_menu(panel);

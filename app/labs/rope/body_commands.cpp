@@ -261,11 +261,12 @@ void add_body_commands(CommandTable& table) {
                            "Removes a rope, cloth or hair", remove_named<body_of, &rope::World::remove>));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
-    table.add(rope_command(
-        "rope.pin", "Pin particles",
-        {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
-         point_argument("at", false, "metres; default: where it is"), each_argument("points", "particles")},
-        "Pins particles in place, or at given points", pin));
+    table.add(
+        rope_command("rope.pin", "Pin particles",
+                     {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
+                      point_argument("at", false, "metres; default: its present position"),
+                      each_argument("points", "particles")},
+                     "Pins particles in place, or at given points", pin));
     table.add(
         rope_command("rope.unpin", "Unpin particles",
                      {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},

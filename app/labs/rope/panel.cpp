@@ -80,7 +80,7 @@ void character_rows(const Walker& walker, Emit& emit) {
     explain("The clip that plays in a loop. Type part of a name to find one.");
     glm::vec3 at = walker.at;
     if (point_field("at", at, 0.01f)) change(now, walker.clip, at);
-    explain("Where the character stands.");
+    explain("The position of the character.");
 }
 
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
@@ -253,7 +253,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
-        explain("Where the particle is pinned.");
+        explain("The position of the pin.");
     } else {
         const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
         reading("at", "%s  %s  %s", text(at.x).c_str(), text(at.y).c_str(), text(at.z).c_str());

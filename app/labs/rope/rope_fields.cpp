@@ -102,7 +102,7 @@ std::span<const FieldText> field_texts<BodySettings>() {
         {.name = "segments",
          .label = "segments",
          .help = "Segments of a rope or a strand of hair. A change keeps shape, motion and material; pins "
-                 "and ties stay where they are."},
+                 "and ties stay in place."},
         {.name = "columns",
          .label = "columns",
          .help = "Particles in a row of a cloth. A change keeps shape, motion and material."},

@@ -113,7 +113,7 @@ constexpr FieldText dead_zone[]{
 constexpr FieldText hysteresis[]{
     text("low", "low", "At this input and below, the output becomes 0. Not above high."),
     text("high", "high",
-         "At this input and above, the output becomes 1. Between the two it stays as it was.")};
+         "At this input and above, the output becomes 1. Between the two it does not change.")};
 constexpr FieldText inertialize[]{
     text("halflife", "halflife", "How long it takes until half of a jump is left."),
     text("threshold", "threshold",

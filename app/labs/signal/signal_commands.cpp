@@ -235,7 +235,7 @@ void add_input_commands(CommandTable& table) {
         "Opens a preset", preset));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.input", "Set the input",
-        {choice_argument("kind", false, "what goes in", input_kinds.names()),
+        {choice_argument("kind", false, "the kind of input", input_kinds.names()),
          number_argument("amplitude", "of square, sine and noise", -max_amplitude, max_amplitude),
          number_argument("period", "seconds, of square, sine and noise", min_input_period, max_input_period),
          text_argument("path", false, "of csv: a file with a time and a value in each row"),

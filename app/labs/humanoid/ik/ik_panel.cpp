@@ -22,7 +22,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     if (!on) {
         if (ImGui::Checkbox(name.c_str(), &on))
             panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}});
-        explain("Gives it a target where it is now. Dragging its orange ball does the same.");
+        explain("Gives it a target at its present position. Dragging its orange ball does the same.");
         return;
     }
     const std::string id = "##has " + name;  // the field beside it has the name

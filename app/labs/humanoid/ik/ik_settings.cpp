@@ -340,7 +340,7 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
          .help = "A foot near the ground that moves slower than this is planted.",
          .more = true},
         {.name = "leave_speed",
-         .label = "let go above",
+         .label = "release above",
          .help = "A planted foot is released when the clip moves it faster than this.",
          .more = true},
         {.name = "max_angle",
