@@ -11,6 +11,7 @@
 #include "app/io/text.hpp"
 #include "arrays.hpp"
 #include "files.hpp"
+#include "help.hpp"
 #include "rooms.hpp"
 #include "tendril/humanoid/lint.hpp"
 

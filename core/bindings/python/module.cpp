@@ -15,6 +15,8 @@ PYBIND11_MODULE(_tendril, module) {
     python::bind_many(module);
     python::bind_signal(module);
     python::bind_rope(module);
+    python::bind_humanoid(module);
+    python::bind_trace(module);
     module.attr("__name__") = name;
     module.doc() = python::help("tendril");
 }

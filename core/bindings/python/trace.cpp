@@ -10,6 +10,7 @@
 #include "app/io/text.hpp"
 #include "arrays.hpp"
 #include "files.hpp"
+#include "help.hpp"
 #include "rooms.hpp"
 
 namespace tendril::python {
