@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace tendril::python {
 
@@ -38,10 +39,19 @@ auto from_file(const std::filesystem::path& file, const auto& read) {
     return refusing(read);
 }
 
+/// The names of an enumeration's values, for bind_enum().
+template <class E>
+std::vector<const char*> names_to(E last) {
+    std::vector<const char*> names;
+    for (int i = 0; i <= static_cast<int>(last); ++i) names.push_back(name(static_cast<E>(i)));
+    return names;
+}
+
 /// A class that Python can't make objects of, not even by __new__: they would have no file.
 template <class Class>
 Class made_only_here(Class bound) {
-    reinterpret_cast<PyTypeObject*>(bound.ptr())->tp_new = [](PyTypeObject* type, PyObject*, PyObject*) -> PyObject* {
+    reinterpret_cast<PyTypeObject*>(bound.ptr())->tp_new = [](PyTypeObject* type, PyObject*,
+                                                              PyObject*) -> PyObject* {
         return PyErr_Format(PyExc_TypeError, "%s comes from a function of tendril, not from its constructor",
                             type->tp_name);
     };

@@ -1,8 +1,10 @@
-// Characters from files: their clips as arrays, judged, mended, retargeted and written. All of it is the
-// program's own (app/io/character), so that a script says what `tendril lint` says.
+// Characters from files: their clips as arrays, judged, mended, retargeted and written. The program's own
+// code does it (app/io/character), so that a script says what `tendril lint` says.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <chrono>
+#include <future>
 #include <optional>
 
 #include "app/io/character/bake.hpp"
@@ -55,29 +57,45 @@ Clip clip_of(const Shared& of, humanoid::Clip clip, std::vector<std::string> not
     return {of, std::make_shared<const humanoid::Clip>(std::move(clip)), std::move(notes)};
 }
 
-Character load_character(const fs::path& file) {
-    return {from_file(file, [&] {
+/// Reads in another thread; this one calls `told` with the part read and listens to Ctrl+C. An exception of
+/// either cancels the reading.
+Shared read(const fs::path& file, const py::object& told) {
+    constexpr std::chrono::milliseconds between_calls(50);  // a bar grows smoothly, and Python hardly works
+    app::LoadProgress progress;
+    const auto tell = [&](float part) {
+        const py::gil_scoped_acquire held;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!told.is_none()) told(part);
+    };
+    auto reading = std::async(std::launch::async, [&] {
         auto loaded = std::make_shared<Loaded>();
         loaded->file = file;
-        loaded->character = app::read_character(file);
+        loaded->character = app::read_character(file, &progress);
         loaded->map = app::bone_map(loaded->character);
         return Shared(std::move(loaded));
-    })};
+    });
+    try {
+        while (reading.wait_for(between_calls) != std::future_status::ready) tell(progress.part());
+        Shared loaded = reading.get();
+        tell(1.0f);
+        return loaded;
+    } catch (...) {
+        progress.cancel();
+        throw;
+    }
 }
 
-/// The clip, if it is one of this character or of one with the same nodes.
-const humanoid::Clip& clip_on(const Character& character, const Clip& clip, const char* function) {
-    if (clip.of != character.loaded && !(clip.of->skeleton() == character.loaded->skeleton()))
-        throw py::value_error(std::string(function) + ": clip " + clip.clip->name + " is of " +
-                              clip.of->file.filename().string() + "; retarget() it to " +
-                              character.loaded->file.filename().string() + " first");
-    return *clip.clip;
+Character load_character(const fs::path& file, const py::object& progress) {
+    if (!progress.is_none() && !PyCallable_Check(progress.ptr()))
+        throw py::type_error("load_character: progress must be a function or None");
+    return {from_file(file, [&] { return read(file, progress); })};
 }
 
 double rate_of(const std::optional<double>& rate, const humanoid::Clip& clip, const char* function) {
     const double chosen = rate.value_or(humanoid::frame_rate(clip));
     if (!(chosen >= app::min_rate && chosen <= app::largest_rate))
-        throw py::value_error(std::string(function) + ": rate must be 1 to 1000, got " + std::to_string(chosen));
+        throw py::value_error(std::string(function) + ": rate must be 1 to 1000, got " +
+                              std::to_string(chosen));
     return chosen;
 }
 
@@ -100,11 +118,22 @@ std::size_t frame_count(const Clip& clip) {
     return frames_at(*clip.clip, humanoid::frame_rate(*clip.clip)).count;
 }
 
+/// Its frames, of which a file of a few bytes may have any number.
+py::ssize_t frames_of(const Clip& clip) {
+    constexpr std::size_t most = 50'000'000;  // as baked() has keys at most; 1.6 GB of rotations
+    const std::size_t frames = frame_count(clip);
+    if (frames > most / clip.of->skeleton().size())
+        throw py::value_error("clip " + clip.clip->name + " has " + std::to_string(frames) + " frames of " +
+                              app::count_text(clip.of->skeleton().size(), "joint") +
+                              ", more than an array is made for");
+    return static_cast<py::ssize_t>(frames);
+}
+
 /// An array (frames, joints, `numbers` of Element), each from `get` of the local transform and the placement.
 template <class Element>
 Array<double> of_joints(const Clip& clip, const auto& get) {
-    const std::size_t joints = clip.of->skeleton().size(), frames = frame_count(clip);
-    Array<double> array({static_cast<py::ssize_t>(frames), static_cast<py::ssize_t>(joints),
+    const std::size_t joints = clip.of->skeleton().size();
+    Array<double> array({frames_of(clip), static_cast<py::ssize_t>(joints),
                          static_cast<py::ssize_t>(sizeof(Element) / sizeof(double))});
     const std::span<Element> all = mutable_elements<Element>(array);
     const py::gil_scoped_release released;
@@ -129,27 +158,29 @@ Array<double> local_rotations(const Clip& clip) {
 
 /// The clip with other poses in its frames: what does not change keeps its keys.
 Clip with_poses(const Clip& clip, const py::object& given_rotations, const py::object& given_positions) {
-    const auto frames = static_cast<py::ssize_t>(frame_count(clip)),
-               joints = static_cast<py::ssize_t>(clip.of->skeleton().size());
+    const py::ssize_t frames = frames_of(clip), joints = static_cast<py::ssize_t>(clip.of->skeleton().size());
     std::optional<Array<double>> turns, places;
     if (!given_rotations.is_none())
         turns = array<double>(given_rotations, {{frames}, {joints}, {4}}, "with_poses: local_rotations");
     if (!given_positions.is_none())
         places = array<double>(given_positions, {{frames}, {joints}, {3}}, "with_poses: local_positions");
-    const std::span<const glm::dquat> turned = turns ? elements<glm::dquat>(*turns) : std::span<const glm::dquat>();
-    const std::span<const glm::dvec3> placed = places ? elements<glm::dvec3>(*places) : std::span<const glm::dvec3>();
+    const std::span<const glm::dquat> turned =
+        turns ? elements<glm::dquat>(*turns) : std::span<const glm::dquat>();
+    const std::span<const glm::dvec3> placed =
+        places ? elements<glm::dvec3>(*places) : std::span<const glm::dvec3>();
     return refusing([&] {
         std::size_t frame = 0;
-        humanoid::Clip made = app::baked(
-            clip.of->skeleton(), *clip.clip, humanoid::frame_rate(*clip.clip),
-            [&](std::span<rig::Transform> pose, double, double) {
-                // A clip may end between two frames: there the last one stands.
-                const std::size_t first = std::min(frame++, static_cast<std::size_t>(frames) - 1) * pose.size();
-                for (std::size_t i = 0; i < pose.size(); ++i) {
-                    if (!turned.empty()) pose[i].rotation = turned[first + i];
-                    if (!placed.empty()) pose[i].translation = placed[first + i];
-                }
-            });
+        humanoid::Clip made =
+            app::baked(clip.of->skeleton(), *clip.clip, humanoid::frame_rate(*clip.clip),
+                       [&](std::span<rig::Transform> pose, double, double) {
+                           // A clip may end between two frames: there the last one stands.
+                           const std::size_t first =
+                               std::min(frame++, static_cast<std::size_t>(frames) - 1) * pose.size();
+                           for (std::size_t i = 0; i < pose.size(); ++i) {
+                               if (!turned.empty()) pose[i].rotation = turned[first + i];
+                               if (!placed.empty()) pose[i].translation = placed[first + i];
+                           }
+                       });
         if (const Result right = humanoid::check(made, clip.of->skeleton()); !right)
             throw std::runtime_error(right.message());
         return clip_of(clip.of, std::move(made), clip.notes);
@@ -203,27 +234,25 @@ std::vector<Clip> clips(const Character& character) {
 Clip clip(const Character& character, const std::string& name) {
     return refusing([&] {
         const Loaded& of = *character.loaded;
-        return Clip{character.loaded,
-                    {character.loaded, &app::clip_named(of.character, of.file, name)}};
+        return Clip{character.loaded, {character.loaded, &app::clip_named(of.character, of.file, name)}};
     });
 }
 
 // ---- What is done with a clip.
 
 Held<humanoid::LintSettings> lint_settings(const py::object& settings, const std::optional<Ground>& ground,
-                                           const py::kwargs& arguments) {
-    auto held = python::options<humanoid::LintSettings>(settings, arguments, "lint");
+                                           const py::kwargs& arguments, const char* function) {
+    auto held = options<humanoid::LintSettings>(settings, arguments, function);
     if (ground) held.value.ground = &*ground;
     return held;
 }
 
-LintReport lint(const Character& character, const Clip& given, const py::object& settings,
-                const std::optional<Ground>& ground, const py::kwargs& arguments) {
-    const humanoid::Clip& clip = clip_on(character, given, "lint");
-    const auto held = lint_settings(settings, ground, arguments);
-    const Loaded& of = *character.loaded;
+LintReport lint(const Clip& clip, const py::object& settings, const std::optional<Ground>& ground,
+                const py::kwargs& arguments) {
+    const auto held = lint_settings(settings, ground, arguments, "lint");
+    const Loaded& of = *clip.of;
     const py::gil_scoped_release released;
-    LintReport made{humanoid::lint(of.skeleton(), of.map, clip, *held), {}};
+    LintReport made{humanoid::lint(of.skeleton(), of.map, *clip.clip, *held), {}};
     for (const humanoid::Finding& each : made.report.findings) {
         std::optional<std::string> joint;
         if (each.node >= 0) joint = of.skeleton()[static_cast<std::size_t>(each.node)].name;
@@ -232,64 +261,60 @@ LintReport lint(const Character& character, const Clip& given, const py::object&
     return made;
 }
 
-Clip cure(const Character& character, const Clip& given, const Finding& finding, const py::object& settings,
+Clip cure(const Clip& clip, const Finding& finding, const py::object& settings,
           const std::optional<Ground>& ground, const py::kwargs& arguments) {
-    const humanoid::Clip& clip = clip_on(character, given, "cure");
-    const auto held = lint_settings(settings, ground, arguments);
-    const Loaded& of = *character.loaded;
+    const auto held = lint_settings(settings, ground, arguments, "cure");
+    const Loaded& of = *clip.of;
     std::optional<Expected<humanoid::Clip>> cured;
     {
         const py::gil_scoped_release released;
-        cured.emplace(humanoid::cure(of.skeleton(), of.map, clip, finding.found, *held));
+        cured.emplace(humanoid::cure(of.skeleton(), of.map, *clip.clip, finding.found, *held));
     }
-    return clip_of(given.of, value_or_throw(*cured), given.notes);
+    return clip_of(clip.of, value_or_throw(*cured), clip.notes);
 }
 
-Clip plant_feet(const Character& character, const Clip& given, const std::optional<Ground>& ground,
-                const std::optional<double>& rate) {
-    const humanoid::Clip& clip = clip_on(character, given, "plant_feet");
-    const double frames = rate_of(rate, clip, "plant_feet");
-    const Loaded& of = *character.loaded;
+Clip plant_feet(const Clip& clip, const std::optional<Ground>& ground, const std::optional<double>& rate) {
+    const double frames = rate_of(rate, *clip.clip, "plant_feet");
+    const Loaded& of = *clip.of;
     return refusing([&] {
         Expected<Ground> level = Ground::flat();
-        return clip_of(given.of,
-                       app::with_feet_on(ground ? *ground : *level, of.skeleton(), of.map, clip, frames),
-                       given.notes);
+        return clip_of(
+            clip.of, app::with_feet_on(ground ? *ground : *level, of.skeleton(), of.map, *clip.clip, frames),
+            clip.notes);
     });
 }
 
-Clip travel(const Character& character, const Clip& given, const std::optional<double>& rate) {
-    const humanoid::Clip& clip = clip_on(character, given, "travel");
-    const double frames = rate_of(rate, clip, "travel");
-    const Loaded& of = *character.loaded;
+Clip travel(const Clip& clip, const std::optional<double>& rate) {
+    const double frames = rate_of(rate, *clip.clip, "travel");
+    const Loaded& of = *clip.of;
     return refusing([&] {
-        const glm::dvec3 ground_moves = humanoid::lint(of.skeleton(), of.map, clip).treadmill;
-        if (ground_moves == glm::dvec3(0.0)) return given;
-        return clip_of(given.of, app::travelling(of.skeleton(), clip, -ground_moves, frames), given.notes);
+        const glm::dvec3 ground_moves = humanoid::lint(of.skeleton(), of.map, *clip.clip).treadmill;
+        if (ground_moves == glm::dvec3(0.0)) return clip;
+        return clip_of(clip.of, app::travelling(of.skeleton(), *clip.clip, -ground_moves, frames),
+                       clip.notes);
     });
 }
 
-Clip retarget(const Character& character, const Clip& given, const Character& to) {
-    const humanoid::Clip& clip = clip_on(character, given, "retarget");
-    const Loaded &from = *character.loaded, &onto = *to.loaded;
+Clip retarget(const Clip& clip, const Character& to) {
+    const Loaded &from = *clip.of, &onto = *to.loaded;
     return refusing([&] {
         app::RetargetedMotion made =
-            app::retargeted_clip(from.character, from.map, from.file, clip, onto.skeleton(), onto.map);
+            app::retargeted_clip(from.character, from.map, from.file, *clip.clip, onto.skeleton(), onto.map);
         return clip_of(to.loaded, std::move(made.clip), std::move(made.notes));
     });
 }
 
-app::ExportReport save_clip(const fs::path& path, const Character& character, const Clip& given,
-                            const std::optional<Clip>& original, const std::optional<double>& rate,
-                            const std::optional<Ground>& ground) {
-    const humanoid::Clip& clip = clip_on(character, given, "save_clip");
-    const humanoid::Clip& before = original ? clip_on(character, *original, "save_clip") : clip;
-    const double frames = rate_of(rate, clip, "save_clip");
+app::ExportReport save_clip(const fs::path& path, const Clip& clip, const std::optional<Clip>& original,
+                            const std::optional<double>& rate, const std::optional<Ground>& ground) {
+    const double frames = rate_of(rate, *clip.clip, "save_clip");
+    if (original && !(original->of->skeleton() == clip.of->skeleton()))
+        throw py::value_error("save_clip: original must be a clip of " + clip.of->file.filename().string() +
+                              ", got one of " + original->of->file.filename().string());
     return refusing([&] {
-        return app::export_clip({.character = character.loaded->character,
-                                 .file = character.loaded->file.string(),
-                                 .original = before,
-                                 .corrected = clip,
+        return app::export_clip({.character = clip.of->character,
+                                 .file = clip.of->file.string(),
+                                 .original = original ? *original->clip : *clip.clip,
+                                 .corrected = *clip.clip,
                                  .rate = frames,
                                  .ground = ground ? &*ground : nullptr},
                                 path);
@@ -300,12 +325,11 @@ app::ExportReport save_clip(const fs::path& path, const Character& character, co
 
 Ground terrain(const py::object& heights, double cell, double x, double z) {
     const auto given = array<double>(heights, {{-1, "rows"}, {-1, "columns"}}, "Ground.terrain: heights");
-    Expected<Ground> made =
-        Ground::terrain({.x = x,
-                         .z = z,
-                         .cell = cell,
-                         .columns = static_cast<std::size_t>(given.shape(1)),
-                         .heights = {given.data(), given.data() + given.size()}});
+    Expected<Ground> made = Ground::terrain({.x = x,
+                                             .z = z,
+                                             .cell = cell,
+                                             .columns = static_cast<std::size_t>(given.shape(1)),
+                                             .heights = {given.data(), given.data() + given.size()}});
     return value_or_throw(made);
 }
 
@@ -317,10 +341,8 @@ Ground mesh(const py::object& vertices, const py::object& triangles) {
 }
 
 void bind_ground(py::module_& root) {
-    std::vector<const char*> kinds;
-    for (int i = 0; i <= static_cast<int>(humanoid::GroundKind::Mesh); ++i)
-        kinds.push_back(humanoid::name(static_cast<humanoid::GroundKind>(i)));
-    bind_enum(root, "GroundKind", detail::type_name<humanoid::GroundKind>(), kinds);
+    bind_enum(root, "GroundKind", detail::type_name<humanoid::GroundKind>(),
+              names_to(humanoid::GroundKind::Mesh));
     made_only_here(py::class_<Ground>(root, "Ground", help("Ground")))
         .def_static(
             "flat",
@@ -346,7 +368,8 @@ void bind_ground(py::module_& root) {
         .def_static("terrain", &terrain, py::arg("heights"), py::arg("cell") = 0.5, py::arg("x") = 0.0,
                     py::arg("z") = 0.0, help("Ground.terrain"))
         .def_static("mesh", &mesh, py::arg("vertices"), py::arg("triangles"), help("Ground.mesh"))
-        .def_property_readonly("kind", [](const Ground& self) { return to_choice(self.kind()); }, help("Ground.kind"))
+        .def_property_readonly(
+            "kind", [](const Ground& self) { return to_choice(self.kind()); }, help("Ground.kind"))
         .def(
             "height",
             [](const Ground& self, double x, double z) {
@@ -360,7 +383,8 @@ void bind_character(py::module_& root) {
     const auto points = [](const auto& all) {
         std::vector<glm::dvec3> places;
         for (const humanoid::Placement& each : all) places.push_back(each.position);
-        return to_array<double>(std::span<const glm::dvec3>(places), {static_cast<py::ssize_t>(places.size()), 3});
+        return to_array<double>(std::span<const glm::dvec3>(places),
+                                {static_cast<py::ssize_t>(places.size()), 3});
     };
     const auto turns = [](const auto& all) {
         std::vector<glm::dquat> rotations;
@@ -369,24 +393,27 @@ void bind_character(py::module_& root) {
                                 {static_cast<py::ssize_t>(rotations.size()), 4});
     };
     made_only_here(py::class_<Character>(root, "Character", help("Character")))
-        .def_property_readonly("file", [](const Character& self) { return self.loaded->file.string(); },
-                               help("Character.file"))
-        .def_property_readonly("joints", [](const Character& self) { return node_names(*self.loaded); },
-                               help("Character.joints"))
-        .def_property_readonly("parents", [](const Character& self) { return parents(*self.loaded); },
-                               help("Character.parents"))
-        .def_property_readonly("rest_positions",
-                               [points](const Character& self) { return points(rest_placements(*self.loaded)); },
-                               help("Character.rest_positions"))
-        .def_property_readonly("rest_rotations",
-                               [turns](const Character& self) { return turns(rest_placements(*self.loaded)); },
-                               help("Character.rest_rotations"))
-        .def_property_readonly("bones", [](const Character& self) { return bones(*self.loaded); },
-                               help("Character.bones"))
-        .def_property_readonly("missing", [](const Character& self) { return missing(*self.loaded); },
-                               help("Character.missing"))
-        .def_property_readonly("scale", [](const Character& self) { return self.loaded->character.scale; },
-                               help("Character.scale"))
+        .def_property_readonly(
+            "file", [](const Character& self) { return self.loaded->file.string(); }, help("Character.file"))
+        .def_property_readonly(
+            "joints", [](const Character& self) { return node_names(*self.loaded); },
+            help("Character.joints"))
+        .def_property_readonly(
+            "parents", [](const Character& self) { return parents(*self.loaded); }, help("Character.parents"))
+        .def_property_readonly(
+            "rest_positions",
+            [points](const Character& self) { return points(rest_placements(*self.loaded)); },
+            help("Character.rest_positions"))
+        .def_property_readonly(
+            "rest_rotations", [turns](const Character& self) { return turns(rest_placements(*self.loaded)); },
+            help("Character.rest_rotations"))
+        .def_property_readonly(
+            "bones", [](const Character& self) { return bones(*self.loaded); }, help("Character.bones"))
+        .def_property_readonly(
+            "missing", [](const Character& self) { return missing(*self.loaded); }, help("Character.missing"))
+        .def_property_readonly(
+            "scale", [](const Character& self) { return self.loaded->character.scale; },
+            help("Character.scale"))
         .def_property_readonly(
             "notes",
             [](const Character& self) { return app::guesses_of(self.loaded->character, self.loaded->map); },
@@ -396,19 +423,21 @@ void bind_character(py::module_& root) {
         .def("__repr__", [](const Character& self) {
             const app::Character& of = self.loaded->character;
             return "<Character " + self.loaded->file.filename().string() + ": " +
-                   app::count_text(of.skeleton.size(), "joint") + ", " + app::count_text(of.clips.size(), "clip") +
-                   ">";
+                   app::count_text(of.skeleton.size(), "joint") + ", " +
+                   app::count_text(of.clips.size(), "clip") + ">";
         });
     made_only_here(py::class_<Clip>(root, "Clip", help("Clip")))
-        .def_property_readonly("name", [](const Clip& self) { return self.clip->name; }, help("Clip.name"))
-        .def_property_readonly("character", [](const Clip& self) { return Character{self.of}; },
-                               help("Clip.character"))
-        .def_property_readonly("duration", [](const Clip& self) { return self.clip->duration; },
-                               help("Clip.duration"))
-        .def_property_readonly("rate", [](const Clip& self) { return humanoid::frame_rate(*self.clip); },
-                               help("Clip.rate"))
+        .def_property_readonly(
+            "name", [](const Clip& self) { return self.clip->name; }, help("Clip.name"))
+        .def_property_readonly(
+            "character", [](const Clip& self) { return Character{self.of}; }, help("Clip.character"))
+        .def_property_readonly(
+            "duration", [](const Clip& self) { return self.clip->duration; }, help("Clip.duration"))
+        .def_property_readonly(
+            "rate", [](const Clip& self) { return humanoid::frame_rate(*self.clip); }, help("Clip.rate"))
         .def_property_readonly("frames", &frame_count, help("Clip.frames"))
-        .def_property_readonly("notes", [](const Clip& self) { return self.notes; }, help("Clip.notes"))
+        .def_property_readonly(
+            "notes", [](const Clip& self) { return self.notes; }, help("Clip.notes"))
         .def_property_readonly("positions", &positions, help("Clip.positions"))
         .def_property_readonly("rotations", &rotations, help("Clip.rotations"))
         .def_property_readonly("local_positions", &local_positions, help("Clip.local_positions"))
@@ -423,52 +452,51 @@ void bind_character(py::module_& root) {
 }
 
 void bind_lint(py::module_& root) {
-    std::vector<const char*> faults;
-    for (std::size_t i = 0; i < humanoid::fault_count; ++i)
-        faults.push_back(humanoid::name(static_cast<humanoid::Fault>(i)));
-    bind_enum(root, "Fault", detail::type_name<humanoid::Fault>(), faults);
+    bind_enum(root, "Fault", detail::type_name<humanoid::Fault>(), names_to(humanoid::Fault::Axis));
     bind<humanoid::LintSettings>(root, "LintSettings");
     const auto found = [](auto member) {
         return [member](const Finding& self) { return self.found.*member; };
     };
     using Found = humanoid::Finding;
     made_only_here(py::class_<Finding>(root, "Finding", help("Finding")))
-        .def_property_readonly("kind", [](const Finding& self) { return to_choice(self.found.fault); },
-                               help("Finding.kind"))
+        .def_property_readonly(
+            "kind", [](const Finding& self) { return to_choice(self.found.fault); }, help("Finding.kind"))
         .def_property_readonly("frame", found(&Found::frame), help("Finding.frame"))
         .def_property_readonly("first_frame", found(&Found::first), help("Finding.first_frame"))
         .def_property_readonly("last_frame", found(&Found::last), help("Finding.last_frame"))
         .def_property_readonly("time", found(&Found::time), help("Finding.time"))
-        .def_property_readonly("joint", [](const Finding& self) { return self.joint; }, help("Finding.joint"))
+        .def_property_readonly(
+            "joint", [](const Finding& self) { return self.joint; }, help("Finding.joint"))
         .def_property_readonly("amount", found(&Found::amount), help("Finding.amount"))
-        .def_property_readonly("unit", [](const Finding& self) { return std::string(self.found.unit); },
-                               help("Finding.unit"))
+        .def_property_readonly(
+            "unit", [](const Finding& self) { return std::string(self.found.unit); }, help("Finding.unit"))
         .def_property_readonly("text", found(&Found::text), help("Finding.text"))
         .def_property_readonly("has_cure", found(&Found::has_cure), help("Finding.has_cure"))
         .def("__repr__", [](const Finding& self) {
             return std::string("<Finding ") + humanoid::name(self.found.fault) + ": " + self.found.text + ">";
         });
     made_only_here(py::class_<LintReport>(root, "LintReport", help("LintReport")))
-        .def_property_readonly("rate", [](const LintReport& self) { return self.report.rate; }, help("LintReport.rate"))
-        .def_property_readonly("frames", [](const LintReport& self) { return self.report.frames; },
-                               help("LintReport.frames"))
+        .def_property_readonly(
+            "rate", [](const LintReport& self) { return self.report.rate; }, help("LintReport.rate"))
+        .def_property_readonly(
+            "frames", [](const LintReport& self) { return self.report.frames; }, help("LintReport.frames"))
         .def_property_readonly(
             "floor",
             [](const LintReport& self) {
                 return self.report.has_floor ? std::optional(self.report.floor) : std::nullopt;
             },
             help("LintReport.floor"))
-        .def_property_readonly("skating", [](const LintReport& self) { return self.report.skating; },
-                               help("LintReport.skating"))
-        .def_property_readonly("findings", [](const LintReport& self) { return self.findings; },
-                               help("LintReport.findings"))
+        .def_property_readonly(
+            "skating", [](const LintReport& self) { return self.report.skating; }, help("LintReport.skating"))
+        .def_property_readonly(
+            "findings", [](const LintReport& self) { return self.findings; }, help("LintReport.findings"))
         .def("__repr__", [](const LintReport& self) {
             return "<LintReport: " + app::count_text(self.findings.size(), "finding") + " in " +
                    app::count_text(self.report.frames, "frame") + ">";
         });
-    root.def("lint", &lint, py::arg("character"), py::arg("clip"), py::kw_only(), py::arg("settings") = py::none(),
+    root.def("lint", &lint, py::arg("clip"), py::kw_only(), py::arg("settings") = py::none(),
              py::arg("ground") = py::none(), help("lint"));
-    root.def("cure", &cure, py::arg("character"), py::arg("clip"), py::arg("finding"), py::kw_only(),
+    root.def("cure", &cure, py::arg("clip"), py::arg("finding"), py::kw_only(),
              py::arg("settings") = py::none(), py::arg("ground") = py::none(), help("cure"));
 }
 
@@ -478,12 +506,12 @@ void bind_humanoid(py::module_& root) {
     bind_ground(root);
     bind_character(root);
     bind_lint(root);
-    root.def("load_character", &load_character, py::arg("path"), help("load_character"));
-    root.def("plant_feet", &plant_feet, py::arg("character"), py::arg("clip"), py::arg("ground") = py::none(),
-             py::kw_only(), py::arg("rate") = py::none(), help("plant_feet"));
-    root.def("travel", &travel, py::arg("character"), py::arg("clip"), py::kw_only(), py::arg("rate") = py::none(),
-             help("travel"));
-    root.def("retarget", &retarget, py::arg("character"), py::arg("clip"), py::arg("to"), help("retarget"));
+    root.def("load_character", &load_character, py::arg("path"), py::kw_only(),
+             py::arg("progress") = py::none(), help("load_character"));
+    root.def("plant_feet", &plant_feet, py::arg("clip"), py::arg("ground") = py::none(), py::kw_only(),
+             py::arg("rate") = py::none(), help("plant_feet"));
+    root.def("travel", &travel, py::arg("clip"), py::kw_only(), py::arg("rate") = py::none(), help("travel"));
+    root.def("retarget", &retarget, py::arg("clip"), py::arg("to"), help("retarget"));
     using Report = app::ExportReport;
     made_only_here(py::class_<Report>(root, "SaveReport", help("SaveReport")))
         .def_readonly("frames", &Report::frames, help("SaveReport.frames"))
@@ -494,7 +522,7 @@ void bind_humanoid(py::module_& root) {
         .def_readonly("new_findings", &Report::new_findings, help("SaveReport.new_findings"))
         .def_property_readonly("text", &Report::text, help("SaveReport.text"))
         .def("__repr__", [](const Report& self) { return "<SaveReport: " + self.text() + ">"; });
-    root.def("save_clip", &save_clip, py::arg("path"), py::arg("character"), py::arg("clip"), py::kw_only(),
+    root.def("save_clip", &save_clip, py::arg("path"), py::arg("clip"), py::kw_only(),
              py::arg("original") = py::none(), py::arg("rate") = py::none(), py::arg("ground") = py::none(),
              help("save_clip"));
 }

@@ -45,7 +45,8 @@ struct Trace {
     std::vector<Incident> incidents;
 
     TraceChain* chain(std::string_view name) {
-        const auto found = std::ranges::find(chains, name, [](const auto& each) { return std::string_view(each->name); });
+        const auto found =
+            std::ranges::find(chains, name, [](const auto& each) { return std::string_view(each->name); });
         return found == chains.end() ? nullptr : found->get();
     }
 };
@@ -56,14 +57,16 @@ void add_frame(Trace& trace, const app::TracedFrame& frame) {
     TraceChain* chain = trace.chain(frame.chain);
     if (chain == nullptr) {
         chain = trace.chains.emplace_back(std::make_shared<TraceChain>()).get();
-        chain->name = frame.chain, chain->joints = frame.joints.size(), chain->end_effector = frame.end_effector();
+        chain->name = frame.chain, chain->joints = frame.joints.size(),
+        chain->end_effector = frame.end_effector();
     }
     chain->positions.insert(chain->positions.end(), frame.joints.begin(), frame.joints.end());
     chain->targets.push_back(frame.target.value_or(nowhere));
     chain->poles.push_back(frame.pole.value_or(nowhere));
 }
 
-Trace read_trace(const fs::path& file, const app::ConventionChoice& choice, const std::optional<double>& fps) {
+Trace read_trace(const fs::path& file, const app::ConventionChoice& choice,
+                 const std::optional<double>& fps) {
     const std::string name = file.filename().string();
     if (!fs::is_regular_file(file)) throw std::runtime_error(name + " is not a file");
     const auto opened = [&](std::ifstream& in) -> std::ifstream& {
@@ -101,7 +104,9 @@ Trace load_trace(const fs::path& file, const std::optional<double>& fps, const s
                  const std::optional<std::size_t>& target_joint) {
     if (fps && !(*fps >= 0.001 && *fps <= 1e6))
         throw py::value_error("load_trace: fps must be 0.001 to 1000000, got " + std::to_string(*fps));
-    return from_file(file, [&] { return read_trace(file, {up, handed, unit, rotations, target_joint}, fps); });
+    return from_file(file, [&] {
+        return read_trace(file, {up, handed, unit, rotations, target_joint}, fps);
+    });
 }
 
 Array<float> per_frame(const Points& points) {
@@ -111,29 +116,33 @@ Array<float> per_frame(const Points& points) {
 }  // namespace
 
 void bind_trace(py::module_& root) {
-    std::vector<const char*> kinds;
-    for (int i = 0; i <= static_cast<int>(ik::IncidentKind::Misplaced); ++i)
-        kinds.push_back(ik::name(static_cast<ik::IncidentKind>(i)));
-    bind_enum(root, "IncidentKind", detail::type_name<ik::IncidentKind>(), kinds);
+    bind_enum(root, "IncidentKind", detail::type_name<ik::IncidentKind>(),
+              names_to(ik::IncidentKind::Misplaced));
     made_only_here(py::class_<Incident>(root, "Incident", help("Incident")))
-        .def_property_readonly("kind", [](const Incident& self) { return to_choice(self.found.kind); },
-                               help("Incident.kind"))
+        .def_property_readonly(
+            "kind", [](const Incident& self) { return to_choice(self.found.kind); }, help("Incident.kind"))
         .def_readonly("chain", &Incident::chain, help("Incident.chain"))
-        .def_property_readonly("frame", [](const Incident& self) { return self.found.frame; }, help("Incident.frame"))
-        .def_property_readonly("last_frame", [](const Incident& self) { return self.found.last_frame; },
-                               help("Incident.last_frame"))
+        .def_property_readonly(
+            "frame", [](const Incident& self) { return self.found.frame; }, help("Incident.frame"))
+        .def_property_readonly(
+            "last_frame", [](const Incident& self) { return self.found.last_frame; },
+            help("Incident.last_frame"))
         .def_property_readonly(
             "joint",
             [](const Incident& self) {
                 return self.found.joint == ik::no_joint ? std::nullopt : std::optional(self.found.joint);
             },
             help("Incident.joint"))
-        .def_property_readonly("amount", [](const Incident& self) { return self.found.amount; }, help("Incident.amount"))
-        .def_property_readonly("unit", [](const Incident& self) { return std::string(ik::unit(self.found.kind)); },
-                               help("Incident.unit"))
-        .def_property_readonly("hertz", [](const Incident& self) { return self.found.hertz; }, help("Incident.hertz"))
-        .def_property_readonly("cause", [](const Incident& self) { return std::string(self.found.cause); },
-                               help("Incident.cause"))
+        .def_property_readonly(
+            "amount", [](const Incident& self) { return self.found.amount; }, help("Incident.amount"))
+        .def_property_readonly(
+            "unit", [](const Incident& self) { return std::string(ik::unit(self.found.kind)); },
+            help("Incident.unit"))
+        .def_property_readonly(
+            "hertz", [](const Incident& self) { return self.found.hertz; }, help("Incident.hertz"))
+        .def_property_readonly(
+            "cause", [](const Incident& self) { return std::string(self.found.cause); },
+            help("Incident.cause"))
         .def_readonly("text", &Incident::text, help("Incident.text"))
         .def_property_readonly(
             "flips_in",
@@ -144,10 +153,11 @@ void bind_trace(py::module_& root) {
             help("Incident.flips_in"))
         .def_readonly("prevented_by", &Incident::prevented_by, help("Incident.prevented_by"))
         .def("__repr__", [](const Incident& self) { return "<Incident " + self.text + ">"; });
-    made_only_here(py::class_<TraceChain, std::shared_ptr<TraceChain>>(root, "TraceChain", help("TraceChain")))
+    made_only_here(
+        py::class_<TraceChain, std::shared_ptr<TraceChain>>(root, "TraceChain", help("TraceChain")))
         .def_readonly("name", &TraceChain::name, help("TraceChain.name"))
-        .def_property_readonly("frames", [](const TraceChain& self) { return self.targets.size(); },
-                               help("TraceChain.frames"))
+        .def_property_readonly(
+            "frames", [](const TraceChain& self) { return self.targets.size(); }, help("TraceChain.frames"))
         .def_property_readonly(
             "joints",
             [](const TraceChain& self) {
@@ -156,18 +166,20 @@ void bind_trace(py::module_& root) {
                                         static_cast<py::ssize_t>(self.joints), 3});
             },
             help("TraceChain.joints"))
-        .def_property_readonly("targets", [](const TraceChain& self) { return per_frame(self.targets); },
-                               help("TraceChain.targets"))
-        .def_property_readonly("poles", [](const TraceChain& self) { return per_frame(self.poles); },
-                               help("TraceChain.poles"))
+        .def_property_readonly(
+            "targets", [](const TraceChain& self) { return per_frame(self.targets); },
+            help("TraceChain.targets"))
+        .def_property_readonly(
+            "poles", [](const TraceChain& self) { return per_frame(self.poles); }, help("TraceChain.poles"))
         .def_readonly("end_effector", &TraceChain::end_effector, help("TraceChain.end_effector"))
         .def_readonly("left_off", &TraceChain::left_off, help("TraceChain.left_off"))
         .def("__repr__", [](const TraceChain& self) {
-            return "<TraceChain " + self.name + ": " + app::count_text(self.targets.size(), "frame") + " of " +
-                   app::count_text(self.joints, "joint") + ">";
+            return "<TraceChain " + self.name + ": " + app::count_text(self.targets.size(), "frame") +
+                   " of " + app::count_text(self.joints, "joint") + ">";
         });
     made_only_here(py::class_<Trace>(root, "Trace", help("Trace")))
-        .def_property_readonly("file", [](const Trace& self) { return self.file.string(); }, help("Trace.file"))
+        .def_property_readonly(
+            "file", [](const Trace& self) { return self.file.string(); }, help("Trace.file"))
         .def_readonly("fps", &Trace::fps, help("Trace.fps"))
         .def_readonly("fps_known", &Trace::fps_known, help("Trace.fps_known"))
         .def_readonly("conventions", &Trace::conventions, help("Trace.conventions"))
@@ -176,8 +188,9 @@ void bind_trace(py::module_& root) {
         .def_readonly("chains", &Trace::chains, help("Trace.chains"))
         .def_readonly("incidents", &Trace::incidents, help("Trace.incidents"))
         .def("__repr__", [](const Trace& self) {
-            return "<Trace " + self.file.filename().string() + ": " + app::count_text(self.chains.size(), "chain") +
-                   ", " + app::count_text(self.incidents.size(), "incident") + ">";
+            return "<Trace " + self.file.filename().string() + ": " +
+                   app::count_text(self.chains.size(), "chain") + ", " +
+                   app::count_text(self.incidents.size(), "incident") + ">";
         });
     root.def("load_trace", &load_trace, py::arg("path"), py::kw_only(), py::arg("fps") = py::none(),
              py::arg("up") = "", py::arg("handed") = "", py::arg("unit") = "", py::arg("rotations") = "",

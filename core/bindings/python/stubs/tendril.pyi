@@ -1,4 +1,4 @@
-"""Chains that reach; tendril.signal has filters, tendril.rope ropes and cloth.
+"""Chains that reach, characters from files, traces from engines; tendril.signal has filters, tendril.rope ropes and cloth.
 
     arm = tendril.Solver([0.4, 0.35, 0.1])
     joints, report = arm.solve(arm.rest_joints(), (0.3, 0.4, 0.1), pole=(0, -1, 0))
@@ -6,7 +6,7 @@
 Units are metres, seconds and radians; rotations are [x, y, z, w]. Arrays are NumPy's: float32 and in C order they are
 used where they lie, other numbers are converted. A refused argument raises ValueError or TypeError, and nothing changes."""
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from typing import Any, TypeVar
 
@@ -211,7 +211,7 @@ class Character:
         """Metres per unit of the file."""
     @property
     def notes(self) -> list[str]:
-        """Sentences: what the file does not say and was guessed, what was left out."""
+        """Sentences: guesses where the file is silent, and parts left out."""
     @property
     def clips(self) -> list[Clip]:
         """All clips, in the file's order; a file may have none."""
@@ -238,7 +238,7 @@ class Clip:
         """Number of frames at that rate."""
     @property
     def notes(self) -> list[str]:
-        """After retarget(): what was left out or guessed."""
+        """After retarget(): sentences on bones left out, and guesses."""
     @property
     def positions(self) -> NDArray[numpy.float64]:
         """(frames, joints, 3), metres, in the character's space."""
@@ -288,7 +288,7 @@ class Finding:
         """Whether cure() can mend it."""
 
 class LintReport:
-    """The faults of a clip, and what they were judged by."""
+    """The faults of a clip, and the rate and floor by which it was judged."""
     @property
     def findings(self) -> list[Finding]:
         """By frame."""
@@ -354,7 +354,7 @@ class Incident:
         """"degrees", "metres", "frames" or empty."""
     @property
     def hertz(self) -> float:
-        """Of jitter: its frequency; of even repeats: new poses a second; else 0."""
+        """A jitter's frequency; new poses a second, if they repeat evenly; else 0."""
     @property
     def cause(self) -> str:
         """Why, as a clause."""
@@ -363,10 +363,10 @@ class Incident:
         """All of it as a sentence, lengths in the file's unit."""
     @property
     def flips_in(self) -> Method | None:
-        """Of a flip: the solver of Tendril that flips on the same input."""
+        """Flips only: the method of Tendril that flips on the same input; None if none does."""
     @property
     def prevented_by(self) -> list[str]:
-        """Of a flip: small changes under which Tendril's solver does not; each was tried."""
+        """Flips only: small changes under which Tendril's solver does not flip; each was tried."""
 
 class TraceChain:
     """The recorded motion of one chain: metres, right-handed, Y up."""
@@ -393,7 +393,7 @@ class TraceChain:
         """Further incidents, which are not listed."""
 
 class Trace:
-    """What an engine logged, and what is wrong in it."""
+    """An engine's log of its chains, and the faults in it."""
     @property
     def file(self) -> str:
         """The path it was read from."""
@@ -411,7 +411,7 @@ class Trace:
         """The bones' names, if the file has them."""
     @property
     def notes(self) -> list[str]:
-        """What was left out; where reading stopped."""
+        """Sentences: lines left out, where reading stopped."""
     @property
     def chains(self) -> list[TraceChain]:
         """Each chain's frames."""
@@ -419,26 +419,27 @@ class Trace:
     def incidents(self) -> list[Incident]:
         """Everything that was found, chain by chain."""
 
-def load_character(path: str | os.PathLike[str]) -> Character:
+def load_character(path: str | os.PathLike[str], *, progress: Callable[[float], object] | None = None) -> Character:
     """Reads a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. A damaged one is a ValueError that begins with its name and says
-    the place: "walk.bvh, line 12: expected CHANNELS". Other Python threads run meanwhile, here and in all functions of
-    characters and traces."""
-def lint(character: Character, clip: Clip, *, settings: LintSettings | None = None, ground: Ground | None = None, **fields: LintSettings) -> LintReport:
+    the place: "walk.bvh, line 12: expected CHANNELS". `progress` is called with the part read, 0 to 1, up to 20 times a
+    second and at the end; an exception from it, or Ctrl+C, ends the reading. Other Python threads run meanwhile, here and
+    in all functions of characters and traces."""
+def lint(clip: Clip, *, settings: LintSettings | None = None, ground: Ground | None = None, **fields: LintSettings) -> LintReport:
     """Finds the faults of a clip: feet that skate, float and sink, knees that pop, joints that jump. Heights are from
     `ground`, or from a level floor found in the clip."""
-def cure(character: Character, clip: Clip, finding: Finding, *, settings: LintSettings | None = None, ground: Ground | None = None, **fields: LintSettings) -> Clip:
+def cure(clip: Clip, finding: Finding, *, settings: LintSettings | None = None, ground: Ground | None = None, **fields: LintSettings) -> Clip:
     """The clip without that fault and with no new one. ValueError for a fault that has no cure, or one of another clip."""
-def plant_feet(character: Character, clip: Clip, ground: Ground | None = None, *, rate: float | None = None) -> Clip:
+def plant_feet(clip: Clip, ground: Ground | None = None, *, rate: float | None = None) -> Clip:
     """The clip with its feet on the ground, by default level at height 0. Needs two legs. `rate`: frames per second."""
-def travel(character: Character, clip: Clip, *, rate: float | None = None) -> Clip:
+def travel(clip: Clip, *, rate: float | None = None) -> Clip:
     """A clip that walks in place goes along, at the speed of its standing foot; another stays as it is."""
-def retarget(character: Character, clip: Clip, to: Character) -> Clip:
+def retarget(clip: Clip, to: Character) -> Clip:
     """The clip for another character: limbs point as they do here, and the feet stand where they do."""
-def save_clip(path: str | os.PathLike[str], character: Character, clip: Clip, *, original: Clip | None = None, rate: float | None = None, ground: Ground | None = None) -> SaveReport:
+def save_clip(path: str | os.PathLike[str], clip: Clip, *, original: Clip | None = None, rate: float | None = None, ground: Ground | None = None) -> SaveReport:
     """Writes a .bvh, .gltf or .glb file, whole or not at all, and reads it back. A glTF of a character from glTF keeps its
-    meshes and materials. It replaces a file of these kinds, but never the character's own. `original`: the clip before it
-    was mended, which the report compares; `rate`: frames per second."""
+    meshes and materials. It replaces a file of these kinds, but never the character's own. `original`: the clip before
+    cures, which the report compares; `rate`: frames per second; `ground`: what its feet stand on, for the report."""
 def load_trace(path: str | os.PathLike[str], *, fps: float | None = None, up: str = "", handed: str = "", unit: str = "", rotations: str = "", target_joint: int | None = None) -> Trace:
     """Reads what an engine logged (JSON Lines, CSV, .trc or any log with positions in it) and explains it: flips, NaN, bones
     that change length, lag, jitter, jumps. The rest overrides the file: `up` "y" or "z", `handed` "right" or "left", `unit`
-    "m", "cm" or "mm", `rotations` "xyzw" or "wxyz"."""
+    "m", "cm" or "mm", `rotations` "xyzw" or "wxyz", `target_joint` the joint that reaches for the target."""
