@@ -9,9 +9,27 @@
 #include <string_view>
 #include <vector>
 
+#include "app/io/text.hpp"
+
 namespace tendril::python {
 
 namespace py = pybind11;
+
+/// What a file holds, as Python's text: bytes that are no UTF-8 become U+FFFD.
+inline py::str text(std::string_view bytes) {
+    return py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace"));
+}
+inline py::list text(const std::vector<std::string>& all) {
+    py::list made;
+    for (const std::string& each : all) made.append(text(each));
+    return made;
+}
+/// A property's getter.
+template <class Class, class Text>
+auto text_of(Text Class::*member) {
+    return [member](const Class& self) { return text(self.*member); };
+}
 
 /// Does it while other Python threads run. A refusal is a ValueError with its message, or an OSError if the
 /// file cannot be written.
@@ -21,10 +39,10 @@ auto refusing(const auto& work) {
         return work();
     } catch (const std::runtime_error& error) {
         if (std::string_view(error.what()).starts_with("cannot write")) {
-            PyErr_SetString(PyExc_OSError, error.what());
+            PyErr_SetString(PyExc_OSError, app::printable(error.what()).c_str());
             throw py::error_already_set();
         }
-        throw py::value_error(error.what());
+        throw py::value_error(app::printable(error.what()));
     }
 }
 

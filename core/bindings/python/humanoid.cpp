@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <optional>
 
@@ -30,6 +31,7 @@ struct Loaded {
     app::Character character;
     humanoid::BoneMap map;
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
+    std::string name() const { return app::printable(file.filename().string()); }
 };
 using Shared = std::shared_ptr<const Loaded>;
 
@@ -45,7 +47,7 @@ struct Clip {
 
 struct Finding {
     humanoid::Finding found;
-    std::optional<std::string> joint;
+    Shared of;
 };
 
 struct LintReport {
@@ -123,8 +125,8 @@ py::ssize_t frames_of(const Clip& clip) {
     constexpr std::size_t most = 50'000'000;  // as baked() has keys at most; 1.6 GB of rotations
     const std::size_t frames = frame_count(clip);
     if (frames > most / clip.of->skeleton().size())
-        throw py::value_error("clip " + clip.clip->name + " has " + std::to_string(frames) + " frames of " +
-                              app::count_text(clip.of->skeleton().size(), "joint") +
+        throw py::value_error("clip " + app::printable(clip.clip->name) + " has " + std::to_string(frames) +
+                              " frames of " + app::count_text(clip.of->skeleton().size(), "joint") +
                               ", more than an array is made for");
     return static_cast<py::ssize_t>(frames);
 }
@@ -189,9 +191,9 @@ Clip with_poses(const Clip& clip, const py::object& given_rotations, const py::o
 
 // ---- The character.
 
-std::vector<std::string> node_names(const Loaded& loaded) {
-    std::vector<std::string> names;
-    for (const humanoid::Node& each : loaded.skeleton().nodes()) names.push_back(each.name);
+py::list node_names(const Loaded& loaded) {
+    py::list names;
+    for (const humanoid::Node& each : loaded.skeleton().nodes()) names.append(text(each.name));
     return names;
 }
 
@@ -213,7 +215,7 @@ py::dict bones(const Loaded& loaded) {
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (const std::int32_t node = loaded.map.bones[i].node; node >= 0)
             all[humanoid::name(static_cast<humanoid::Bone>(i))] =
-                loaded.skeleton()[static_cast<std::size_t>(node)].name;
+                text(loaded.skeleton()[static_cast<std::size_t>(node)].name);
     return all;
 }
 
@@ -253,11 +255,7 @@ LintReport lint(const Clip& clip, const py::object& settings, const std::optiona
     const Loaded& of = *clip.of;
     const py::gil_scoped_release released;
     LintReport made{humanoid::lint(of.skeleton(), of.map, *clip.clip, *held), {}};
-    for (const humanoid::Finding& each : made.report.findings) {
-        std::optional<std::string> joint;
-        if (each.node >= 0) joint = of.skeleton()[static_cast<std::size_t>(each.node)].name;
-        made.findings.push_back({each, joint});
-    }
+    for (const humanoid::Finding& each : made.report.findings) made.findings.push_back({each, clip.of});
     return made;
 }
 
@@ -265,12 +263,11 @@ Clip cure(const Clip& clip, const Finding& finding, const py::object& settings,
           const std::optional<Ground>& ground, const py::kwargs& arguments) {
     const auto held = lint_settings(settings, ground, arguments, "cure");
     const Loaded& of = *clip.of;
-    std::optional<Expected<humanoid::Clip>> cured;
-    {
-        const py::gil_scoped_release released;
-        cured.emplace(humanoid::cure(of.skeleton(), of.map, *clip.clip, finding.found, *held));
-    }
-    return clip_of(clip.of, value_or_throw(*cured), clip.notes);
+    return refusing([&] {
+        const auto cured = humanoid::cure(of.skeleton(), of.map, *clip.clip, finding.found, *held);
+        if (!cured) throw std::runtime_error(cured.message());
+        return clip_of(clip.of, *cured, clip.notes);
+    });
 }
 
 Clip plant_feet(const Clip& clip, const std::optional<Ground>& ground, const std::optional<double>& rate) {
@@ -308,8 +305,8 @@ app::ExportReport save_clip(const fs::path& path, const Clip& clip, const std::o
                             const std::optional<double>& rate, const std::optional<Ground>& ground) {
     const double frames = rate_of(rate, *clip.clip, "save_clip");
     if (original && !(original->of->skeleton() == clip.of->skeleton()))
-        throw py::value_error("save_clip: original must be a clip of " + clip.of->file.filename().string() +
-                              ", got one of " + original->of->file.filename().string());
+        throw py::value_error("save_clip: original must be a clip of " + clip.of->name() + ", got one of " +
+                              original->of->name());
     return refusing([&] {
         return app::export_clip({.character = clip.of->character,
                                  .file = clip.of->file.string(),
@@ -335,8 +332,15 @@ Ground terrain(const py::object& heights, double cell, double x, double z) {
 
 Ground mesh(const py::object& vertices, const py::object& triangles) {
     const auto points = array<double>(vertices, {{-1, "vertices"}, {3}}, "Ground.mesh: vertices");
-    const auto corners = array<std::uint32_t>(triangles, {{-1, "triangles"}, {3}}, "Ground.mesh: triangles");
-    Expected<Ground> made = Ground::mesh(elements<glm::dvec3>(points), elements<std::uint32_t>(corners));
+    const auto given = array<double>(triangles, {{-1, "triangles"}, {3}}, "Ground.mesh: triangles");
+    std::vector<std::uint32_t> corners;
+    for (const double each : std::span(given.data(), static_cast<std::size_t>(given.size()))) {
+        if (!(each >= 0.0 && each < static_cast<double>(points.shape(0)) && each == std::floor(each)))
+            throw py::value_error("Ground.mesh: triangles must be indices below " +
+                                  std::to_string(points.shape(0)) + ", got " + std::to_string(each));
+        corners.push_back(static_cast<std::uint32_t>(each));
+    }
+    Expected<Ground> made = Ground::mesh(elements<glm::dvec3>(points), corners);
     return value_or_throw(made);
 }
 
@@ -394,7 +398,7 @@ void bind_character(py::module_& root) {
     };
     made_only_here(py::class_<Character>(root, "Character", help("Character")))
         .def_property_readonly(
-            "file", [](const Character& self) { return self.loaded->file.string(); }, help("Character.file"))
+            "file", [](const Character& self) { return self.loaded->file; }, help("Character.file"))
         .def_property_readonly(
             "joints", [](const Character& self) { return node_names(*self.loaded); },
             help("Character.joints"))
@@ -416,19 +420,20 @@ void bind_character(py::module_& root) {
             help("Character.scale"))
         .def_property_readonly(
             "notes",
-            [](const Character& self) { return app::guesses_of(self.loaded->character, self.loaded->map); },
+            [](const Character& self) {
+                return text(app::guesses_of(self.loaded->character, self.loaded->map));
+            },
             help("Character.notes"))
         .def_property_readonly("clips", &clips, help("Character.clips"))
         .def("clip", &clip, py::arg("name") = "", help("Character.clip"))
         .def("__repr__", [](const Character& self) {
             const app::Character& of = self.loaded->character;
-            return "<Character " + self.loaded->file.filename().string() + ": " +
-                   app::count_text(of.skeleton.size(), "joint") + ", " +
-                   app::count_text(of.clips.size(), "clip") + ">";
+            return "<Character " + self.loaded->name() + ": " + app::count_text(of.skeleton.size(), "joint") +
+                   ", " + app::count_text(of.clips.size(), "clip") + ">";
         });
     made_only_here(py::class_<Clip>(root, "Clip", help("Clip")))
         .def_property_readonly(
-            "name", [](const Clip& self) { return self.clip->name; }, help("Clip.name"))
+            "name", [](const Clip& self) { return text(self.clip->name); }, help("Clip.name"))
         .def_property_readonly(
             "character", [](const Clip& self) { return Character{self.of}; }, help("Clip.character"))
         .def_property_readonly(
@@ -436,8 +441,7 @@ void bind_character(py::module_& root) {
         .def_property_readonly(
             "rate", [](const Clip& self) { return humanoid::frame_rate(*self.clip); }, help("Clip.rate"))
         .def_property_readonly("frames", &frame_count, help("Clip.frames"))
-        .def_property_readonly(
-            "notes", [](const Clip& self) { return self.notes; }, help("Clip.notes"))
+        .def_property_readonly("notes", text_of(&Clip::notes), help("Clip.notes"))
         .def_property_readonly("positions", &positions, help("Clip.positions"))
         .def_property_readonly("rotations", &rotations, help("Clip.rotations"))
         .def_property_readonly("local_positions", &local_positions, help("Clip.local_positions"))
@@ -445,7 +449,7 @@ void bind_character(py::module_& root) {
         .def("with_poses", &with_poses, py::arg("local_rotations") = py::none(),
              py::arg("local_positions") = py::none(), help("Clip.with_poses"))
         .def("__repr__", [](const Clip& self) {
-            return "<Clip " + self.clip->name + " of " + self.of->file.filename().string() + ": " +
+            return "<Clip " + app::printable(self.clip->name) + " of " + self.of->name() + ": " +
                    app::count_text(frame_count(self), "frame") + " at " +
                    app::short_text(humanoid::frame_rate(*self.clip), "") + " fps>";
         });
@@ -466,14 +470,21 @@ void bind_lint(py::module_& root) {
         .def_property_readonly("last_frame", found(&Found::last), help("Finding.last_frame"))
         .def_property_readonly("time", found(&Found::time), help("Finding.time"))
         .def_property_readonly(
-            "joint", [](const Finding& self) { return self.joint; }, help("Finding.joint"))
+            "joint",
+            [](const Finding& self) -> py::object {
+                if (self.found.node < 0) return py::none();
+                return text(self.of->skeleton()[static_cast<std::size_t>(self.found.node)].name);
+            },
+            help("Finding.joint"))
         .def_property_readonly("amount", found(&Found::amount), help("Finding.amount"))
         .def_property_readonly(
             "unit", [](const Finding& self) { return std::string(self.found.unit); }, help("Finding.unit"))
-        .def_property_readonly("text", found(&Found::text), help("Finding.text"))
+        .def_property_readonly(
+            "text", [](const Finding& self) { return text(self.found.text); }, help("Finding.text"))
         .def_property_readonly("has_cure", found(&Found::has_cure), help("Finding.has_cure"))
         .def("__repr__", [](const Finding& self) {
-            return std::string("<Finding ") + humanoid::name(self.found.fault) + ": " + self.found.text + ">";
+            return std::string("<Finding ") + humanoid::name(self.found.fault) + ": " +
+                   app::printable(self.found.text) + ">";
         });
     made_only_here(py::class_<LintReport>(root, "LintReport", help("LintReport")))
         .def_property_readonly(
@@ -516,12 +527,15 @@ void bind_humanoid(py::module_& root) {
     made_only_here(py::class_<Report>(root, "SaveReport", help("SaveReport")))
         .def_readonly("frames", &Report::frames, help("SaveReport.frames"))
         .def_readonly("worst", &Report::worst, help("SaveReport.worst"))
-        .def_readonly("worst_joint", &Report::worst_joint, help("SaveReport.worst_joint"))
+        .def_property_readonly("worst_joint", text_of(&Report::worst_joint), help("SaveReport.worst_joint"))
         .def_readonly("skating_before", &Report::skating_before, help("SaveReport.skating_before"))
         .def_readonly("skating_after", &Report::skating_after, help("SaveReport.skating_after"))
-        .def_readonly("new_findings", &Report::new_findings, help("SaveReport.new_findings"))
-        .def_property_readonly("text", &Report::text, help("SaveReport.text"))
-        .def("__repr__", [](const Report& self) { return "<SaveReport: " + self.text() + ">"; });
+        .def_property_readonly("new_findings", text_of(&Report::new_findings),
+                               help("SaveReport.new_findings"))
+        .def_property_readonly(
+            "text", [](const Report& self) { return text(self.text()); }, help("SaveReport.text"))
+        .def("__repr__",
+             [](const Report& self) { return "<SaveReport: " + app::printable(self.text()) + ">"; });
     root.def("save_clip", &save_clip, py::arg("path"), py::arg("clip"), py::kw_only(),
              py::arg("original") = py::none(), py::arg("rate") = py::none(), py::arg("ground") = py::none(),
              help("save_clip"));

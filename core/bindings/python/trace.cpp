@@ -121,7 +121,7 @@ void bind_trace(py::module_& root) {
     made_only_here(py::class_<Incident>(root, "Incident", help("Incident")))
         .def_property_readonly(
             "kind", [](const Incident& self) { return to_choice(self.found.kind); }, help("Incident.kind"))
-        .def_readonly("chain", &Incident::chain, help("Incident.chain"))
+        .def_property_readonly("chain", text_of(&Incident::chain), help("Incident.chain"))
         .def_property_readonly(
             "frame", [](const Incident& self) { return self.found.frame; }, help("Incident.frame"))
         .def_property_readonly(
@@ -141,9 +141,8 @@ void bind_trace(py::module_& root) {
         .def_property_readonly(
             "hertz", [](const Incident& self) { return self.found.hertz; }, help("Incident.hertz"))
         .def_property_readonly(
-            "cause", [](const Incident& self) { return std::string(self.found.cause); },
-            help("Incident.cause"))
-        .def_readonly("text", &Incident::text, help("Incident.text"))
+            "cause", [](const Incident& self) { return text(self.found.cause); }, help("Incident.cause"))
+        .def_property_readonly("text", text_of(&Incident::text), help("Incident.text"))
         .def_property_readonly(
             "flips_in",
             [](const Incident& self) -> py::object {
@@ -151,11 +150,12 @@ void bind_trace(py::module_& root) {
                 return to_choice(*self.found.prevented.flips_in);
             },
             help("Incident.flips_in"))
-        .def_readonly("prevented_by", &Incident::prevented_by, help("Incident.prevented_by"))
-        .def("__repr__", [](const Incident& self) { return "<Incident " + self.text + ">"; });
+        .def_property_readonly("prevented_by", text_of(&Incident::prevented_by),
+                               help("Incident.prevented_by"))
+        .def("__repr__", [](const Incident& self) { return "<Incident " + app::printable(self.text) + ">"; });
     made_only_here(
         py::class_<TraceChain, std::shared_ptr<TraceChain>>(root, "TraceChain", help("TraceChain")))
-        .def_readonly("name", &TraceChain::name, help("TraceChain.name"))
+        .def_property_readonly("name", text_of(&TraceChain::name), help("TraceChain.name"))
         .def_property_readonly(
             "frames", [](const TraceChain& self) { return self.targets.size(); }, help("TraceChain.frames"))
         .def_property_readonly(
@@ -174,21 +174,22 @@ void bind_trace(py::module_& root) {
         .def_readonly("end_effector", &TraceChain::end_effector, help("TraceChain.end_effector"))
         .def_readonly("left_off", &TraceChain::left_off, help("TraceChain.left_off"))
         .def("__repr__", [](const TraceChain& self) {
-            return "<TraceChain " + self.name + ": " + app::count_text(self.targets.size(), "frame") +
-                   " of " + app::count_text(self.joints, "joint") + ">";
+            return "<TraceChain " + app::printable(self.name) + ": " +
+                   app::count_text(self.targets.size(), "frame") + " of " +
+                   app::count_text(self.joints, "joint") + ">";
         });
     made_only_here(py::class_<Trace>(root, "Trace", help("Trace")))
         .def_property_readonly(
-            "file", [](const Trace& self) { return self.file.string(); }, help("Trace.file"))
+            "file", [](const Trace& self) { return self.file; }, help("Trace.file"))
         .def_readonly("fps", &Trace::fps, help("Trace.fps"))
         .def_readonly("fps_known", &Trace::fps_known, help("Trace.fps_known"))
-        .def_readonly("conventions", &Trace::conventions, help("Trace.conventions"))
-        .def_readonly("bones", &Trace::bones, help("Trace.bones"))
-        .def_readonly("notes", &Trace::notes, help("Trace.notes"))
+        .def_property_readonly("conventions", text_of(&Trace::conventions), help("Trace.conventions"))
+        .def_property_readonly("bones", text_of(&Trace::bones), help("Trace.bones"))
+        .def_property_readonly("notes", text_of(&Trace::notes), help("Trace.notes"))
         .def_readonly("chains", &Trace::chains, help("Trace.chains"))
         .def_readonly("incidents", &Trace::incidents, help("Trace.incidents"))
         .def("__repr__", [](const Trace& self) {
-            return "<Trace " + self.file.filename().string() + ": " +
+            return "<Trace " + app::printable(self.file.filename().string()) + ": " +
                    app::count_text(self.chains.size(), "chain") + ", " +
                    app::count_text(self.incidents.size(), "incident") + ">";
         });

@@ -1,5 +1,6 @@
 # Written by core/bindings/generate from stubs/tendril.pyi and the library's tables. Edit those.
-"""Chains that reach, characters from files, traces from engines; tendril.signal has filters, tendril.rope ropes and cloth.
+"""Chains that reach, characters from files, traces from engines; tendril.linkage has linkages, tendril.signal filters,
+tendril.rope ropes and cloth.
 
     arm = tendril.Solver([0.4, 0.35, 0.1])
     joints, report = arm.solve(arm.rest_joints(), (0.3, 0.4, 0.1), pole=(0, -1, 0))
@@ -9,6 +10,7 @@ used where they lie, other numbers are converted. A refused argument raises Valu
 import os
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy
@@ -583,7 +585,7 @@ class Character:
     """A character from a file: skeleton, bones and clips, converted to Y up and metres. It never changes, so that threads
     may share it."""
     @property
-    def file(self) -> str:
+    def file(self) -> Path:
         """The path it was read from."""
     @property
     def joints(self) -> list[str]:
@@ -792,7 +794,7 @@ class TraceChain:
 class Trace:
     """An engine's log of its chains, and the faults in it."""
     @property
-    def file(self) -> str:
+    def file(self) -> Path:
         """The path it was read from."""
     @property
     def fps(self) -> float:
