@@ -46,6 +46,8 @@ def enumerators(name):
     values, help_text = [], {}
     for line in body:
         code, _, said = line.partition("///<")
+        if code.lstrip().startswith("///"):
+            continue
         values += re.findall(r"\b([A-Z]\w*)\b", code)
         if said and values:
             help_text.setdefault(values[-1], []).append(said)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import tendril
 
-MODULES = {"__init__": tendril, "rope": tendril.rope, "signal": tendril.signal}
+MODULES = {"__init__": tendril, "linkage": tendril.linkage, "rope": tendril.rope, "signal": tendril.signal}
 PACKAGE = Path(os.environ["TENDRIL_PACKAGE"])
 
 

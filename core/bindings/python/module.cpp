@@ -12,9 +12,12 @@ PYBIND11_MODULE(_tendril, module) {
     module.attr("__version__") = tendril::version_string;
     python::bind_structs(module);
     python::bind_ik(module);
+    python::bind_linkage(module);
     python::bind_many(module);
     python::bind_signal(module);
     python::bind_rope(module);
+    python::bind_humanoid(module);
+    python::bind_trace(module);
     module.attr("__name__") = name;
     module.doc() = python::help("tendril");
 }

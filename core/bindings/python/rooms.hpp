@@ -5,9 +5,12 @@
 
 namespace tendril::python {
 
+void bind_humanoid(pybind11::module_& root);
 void bind_ik(pybind11::module_& root);
+void bind_linkage(pybind11::module_& root);
 void bind_many(pybind11::module_& root);
 void bind_signal(pybind11::module_& root);
 void bind_rope(pybind11::module_& root);
+void bind_trace(pybind11::module_& root);
 
 }  // namespace tendril::python

@@ -61,7 +61,7 @@ def write_wheel(folder, package):
         sys.exit(f"tendril_wheel.py: {package} has no {module.name}, the module for this Python")
     files.update({f"tendril/{path.name}": path.read_bytes() for path in libraries(module)})
     files[f"{info}/METADATA"] = (f"Metadata-Version: 2.1\nName: tendril\nVersion: {version()}\nLicense: MIT\n"
-                                 "Summary: Chains that reach, filters and ropes: the library Tendril\n"
+                                 "Summary: Chains that reach, filters, ropes and characters: the library Tendril\n"
                                  "Requires-Python: >=3.9\nRequires-Dist: numpy\n").encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: tendril\nRoot-Is-Purelib: false\nTag: {tag()}\n").encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()

@@ -1,13 +1,16 @@
 # Written by core/bindings/generate from stubs/tendril.pyi and the library's tables. Edit those.
-"""Chains that reach; tendril.signal has filters, tendril.rope ropes and cloth.
+"""Chains that reach, characters from files, traces from engines; tendril.linkage has linkages, tendril.signal filters,
+tendril.rope ropes and cloth.
 
     arm = tendril.Solver([0.4, 0.35, 0.1])
     joints, report = arm.solve(arm.rest_joints(), (0.3, 0.4, 0.1), pole=(0, -1, 0))
 
 Units are metres, seconds and radians; rotations are [x, y, z, w]. Arrays are NumPy's: float32 and in C order they are
 used where they lie, other numbers are converted. A refused argument raises ValueError or TypeError, and nothing changes."""
-from collections.abc import Iterator, Sequence
+import os
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy
@@ -25,6 +28,29 @@ class Struct:
     def __copy__(self: _T) -> _T: ...
     def __deepcopy__(self: _T, memo: dict[int, Any]) -> _T: ...
 
+class GroundKind(str, Enum):
+    """Choices of `GroundKind`."""
+    NONE = "none"
+    FLAT = "flat"
+    SLOPE = "slope"
+    STAIRS = "stairs"
+    TERRAIN = "terrain"
+    MESH = "mesh"
+
+
+class Fault(str, Enum):
+    """Choices of `Fault`."""
+    SKATING = "skating"
+    FLOATING = "floating"
+    SINKING = "sinking"
+    KNEE_POP = "knee_pop"
+    SIGN_FLIP = "sign_flip"
+    LIMIT = "limit"
+    JUMP = "jump"
+    SCALE = "scale"
+    AXIS = "axis"
+
+
 class Method(str, Enum):
     """Choices of `Method`."""
     FABRIK = "fabrik"
@@ -41,6 +67,27 @@ class Method(str, Enum):
     """The same, damped singular value by singular value (Maciejewski and Klein 1988)."""
     TWO_BONE = "two_bone"
     """Law of cosines; two bones only."""
+
+
+class IncidentKind(str, Enum):
+    """Choices of `IncidentKind`."""
+    FLIP = "flip"
+    NAN = "nan"
+    """A joint, the target or the pole target is not finite; amount: 0."""
+    LENGTH = "length"
+    LIMIT = "limit"
+    """A joint is beyond its limit; amount: degrees beyond it."""
+    MISSED = "missed"
+    """The tip does not reach a target within its reach; amount: metres short."""
+    LAG = "lag"
+    JITTER = "jitter"
+    """The tip swings while the target is still; amount: metres to either side."""
+    REPEATED = "repeated"
+    TARGET_JUMP = "target_jump"
+    """Amount: metres."""
+    POLE_JUMP = "pole_jump"
+    """The pole target jumps to another side of the root-target line; amount: metres."""
+    MISPLACED = "misplaced"
 
 
 class JointKind(str, Enum):
@@ -113,6 +160,29 @@ class Bound(str, Enum):
     RIGHT = "right"
     TWIST_MIN = "twist_min"
     TWIST_MAX = "twist_max"
+
+
+class LintSettings(Struct):
+    """LintSettings."""
+    rate: float
+    """Frames per second, up to 1000; 0: the clip's own [1/s, 0 to 1000, default 0]."""
+    skating: float
+    """Metres that a standing foot may slide [m, 0 to 1000, default 0.02]."""
+    floating: float
+    """Metres that a standing foot may be above the floor [m, 0 to 1000, default 0.025]."""
+    sinking: float
+    """Metres that a foot may be below it [m, 0 to 1000, default 0.02]."""
+    knee: float
+    """Degrees that a knee may jump, at 60 frames per second [deg, 0 to 180, default 6]."""
+    turn: float
+    """Maximum jump of any other joint in degrees, at 60 frames per second [deg, 0 to 180, default 15]."""
+    shift: float
+    """Maximum jump of positions, times the figure's height at rest [0 to 1000, default 0.02]."""
+    beyond: float
+    """Degrees that a joint may exceed limits [deg, 0 to 180, default 2]."""
+    def __init__(
+            self, *, rate: float = ..., skating: float = ..., floating: float = ..., sinking: float = ...,
+            knee: float = ..., turn: float = ..., shift: float = ..., beyond: float = ...) -> None: ...
 
 
 class Limit(Struct):
@@ -486,3 +556,295 @@ def solve_many(
         every_iteration: bool = ..., restarts: int | None = ...,
         plane: Plane | None = ...) -> tuple[NDArray[numpy.float32], ManyReport]:
     """A Batch for one solve: the same arguments as Batch() and its solve()."""
+
+class Ground:
+    """The ground under a character's feet: Y up, metres. It never changes."""
+    @staticmethod
+    def flat(height: float = 0.0) -> Ground:
+        """Level and without end."""
+    @staticmethod
+    def slope(angle: float) -> Ground:
+        """Rises along +Z from z = 0 on. Radians, -1.5 to 1.5."""
+    @staticmethod
+    def stairs(step_height: float, step_depth: float) -> Ground:
+        """Rise along +Z from z = 0 on. Metres: height -100 to 100, depth 0.01 to 1000."""
+    @staticmethod
+    def terrain(heights: ArrayLike, cell: float = 0.5, x: float = 0.0, z: float = 0.0) -> Ground:
+        """Heights at the corners of squares, (rows, columns): rows along Z, columns along X, bilinear between them. `cell`:
+        a square's width; `x`, `z`: the first corner."""
+    @staticmethod
+    def mesh(vertices: ArrayLike, triangles: ArrayLike) -> Ground:
+        """Triangles, (triangles, 3) indices into `vertices`, (vertices, 3), wound either way."""
+    @property
+    def kind(self) -> GroundKind:
+        """The kind of ground."""
+    def height(self, x: float, z: float) -> float | None:
+        """The highest ground there; None where there is none."""
+
+class Character:
+    """A character from a file: skeleton, bones and clips, converted to Y up and metres. It never changes, so that threads
+    may share it."""
+    @property
+    def file(self) -> Path:
+        """The path it was read from."""
+    @property
+    def joints(self) -> list[str]:
+        """The joints' names, in the order of all arrays."""
+    @property
+    def parents(self) -> NDArray[numpy.int32]:
+        """The index of each joint's parent; -1 for a root. A parent may come after its children."""
+    @property
+    def rest_positions(self) -> NDArray[numpy.float64]:
+        """(joints, 3), metres, in the character's space."""
+    @property
+    def rest_rotations(self) -> NDArray[numpy.float64]:
+        """(joints, 4), in the character's space."""
+    @property
+    def bones(self) -> dict[str, str]:
+        """The joint of each bone of a human body that was found: {"LeftUpperArm": "mixamorig:LeftArm"}."""
+    @property
+    def missing(self) -> list[str]:
+        """Bones that a body needs and that were not found."""
+    @property
+    def scale(self) -> float:
+        """Metres per unit of the file."""
+    @property
+    def notes(self) -> list[str]:
+        """Sentences: guesses where the file is silent, and parts left out."""
+    @property
+    def clips(self) -> list[Clip]:
+        """All clips, in the file's order; a file may have none."""
+    def clip(self, name: str = "") -> Clip:
+        """The clip of that name; without one the first. ValueError, with the names that there are, if there is none."""
+
+class Clip:
+    """A motion of a character. It never changes; functions return another. Arrays have a row for each frame at `rate`,
+    from time 0, and are made anew at each use."""
+    @property
+    def name(self) -> str:
+        """Unique in its file."""
+    @property
+    def character(self) -> Character:
+        """The character that it moves."""
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+    @property
+    def rate(self) -> float:
+        """Frames per second: as the file says, or by the spacing of its keys."""
+    @property
+    def frames(self) -> int:
+        """Number of frames at that rate."""
+    @property
+    def notes(self) -> list[str]:
+        """After retarget(): sentences on bones left out, and guesses."""
+    @property
+    def positions(self) -> NDArray[numpy.float64]:
+        """(frames, joints, 3), metres, in the character's space."""
+    @property
+    def rotations(self) -> NDArray[numpy.float64]:
+        """(frames, joints, 4), in the character's space."""
+    @property
+    def local_positions(self) -> NDArray[numpy.float64]:
+        """(frames, joints, 3), metres, relative to the parent."""
+    @property
+    def local_rotations(self) -> NDArray[numpy.float64]:
+        """(frames, joints, 4), relative to the parent."""
+    def with_poses(self, local_rotations: ArrayLike | None = None, local_positions: ArrayLike | None = None) -> Clip:
+        """The clip with other poses in its frames, relative to the parents. A joint that they don't change keeps its keys."""
+
+class Finding:
+    """A fault of a clip."""
+    @property
+    def kind(self) -> Fault:
+        """The rule that it breaks."""
+    @property
+    def frame(self) -> int:
+        """The worst frame, from 0."""
+    @property
+    def first_frame(self) -> int:
+        """The first frame with the fault."""
+    @property
+    def last_frame(self) -> int:
+        """The last frame with the fault."""
+    @property
+    def time(self) -> float:
+        """Seconds: the worst frame's."""
+    @property
+    def joint(self) -> str | None:
+        """None: the whole figure."""
+    @property
+    def amount(self) -> float:
+        """How much, in `unit`."""
+    @property
+    def unit(self) -> str:
+        """"mm", "deg", "m" or "times"."""
+    @property
+    def text(self) -> str:
+        """All of it as a sentence."""
+    @property
+    def has_cure(self) -> bool:
+        """Whether cure() can mend it."""
+
+class LintReport:
+    """The faults of a clip, and the rate and floor by which it was judged."""
+    @property
+    def findings(self) -> list[Finding]:
+        """By frame."""
+    @property
+    def rate(self) -> float:
+        """Frames per second at which it was judged."""
+    @property
+    def frames(self) -> int:
+        """Number of frames judged."""
+    @property
+    def floor(self) -> float | None:
+        """Height of the clip's floor, metres; None if no foot ever stands."""
+    @property
+    def skating(self) -> float:
+        """How far a standing foot slides at most, metres, even if that is tolerated."""
+
+class SaveReport:
+    """How well a written file agrees with its clip: it was read back."""
+    @property
+    def frames(self) -> int:
+        """Frames compared."""
+    @property
+    def worst(self) -> float:
+        """The largest distance of a joint from where it was, metres."""
+    @property
+    def worst_joint(self) -> str:
+        """That joint."""
+    @property
+    def skating_before(self) -> float:
+        """How far a standing foot of the original slides at most, metres."""
+    @property
+    def skating_after(self) -> float:
+        """The same in the written clip."""
+    @property
+    def new_findings(self) -> list[str]:
+        """Faults that the original lacks."""
+    @property
+    def text(self) -> str:
+        """All of it as a sentence."""
+
+class Incident:
+    """A fault in a chain's recorded motion."""
+    @property
+    def kind(self) -> IncidentKind:
+        """Its kind."""
+    @property
+    def chain(self) -> str:
+        """The chain's name; empty if it has none."""
+    @property
+    def frame(self) -> int:
+        """The first frame, from 0."""
+    @property
+    def last_frame(self) -> int:
+        """The last frame."""
+    @property
+    def joint(self) -> int | None:
+        """From 0 at the root; None: no single joint."""
+    @property
+    def amount(self) -> float:
+        """How much, in `unit`."""
+    @property
+    def unit(self) -> str:
+        """"degrees", "metres", "frames" or empty."""
+    @property
+    def hertz(self) -> float:
+        """A jitter's frequency; new poses a second, if they repeat evenly; else 0."""
+    @property
+    def cause(self) -> str:
+        """Why, as a clause."""
+    @property
+    def text(self) -> str:
+        """All of it as a sentence, lengths in the file's unit."""
+    @property
+    def flips_in(self) -> Method | None:
+        """Flips only: the method of Tendril that flips on the same input; None if none does."""
+    @property
+    def prevented_by(self) -> list[str]:
+        """Flips only: small changes under which Tendril's solver does not flip; each was tried."""
+
+class TraceChain:
+    """The recorded motion of one chain: metres, right-handed, Y up."""
+    @property
+    def name(self) -> str:
+        """Empty if it has none."""
+    @property
+    def frames(self) -> int:
+        """Number of frames."""
+    @property
+    def joints(self) -> NDArray[numpy.float32]:
+        """(frames, joints, 3)."""
+    @property
+    def targets(self) -> NDArray[numpy.float32]:
+        """(frames, 3); NaN where there is none."""
+    @property
+    def poles(self) -> NDArray[numpy.float32]:
+        """(frames, 3); NaN where there is none."""
+    @property
+    def end_effector(self) -> int:
+        """The joint that reaches for the target."""
+    @property
+    def left_off(self) -> int:
+        """Further incidents, which are not listed."""
+
+class Trace:
+    """An engine's log of its chains, and the faults in it."""
+    @property
+    def file(self) -> Path:
+        """The path it was read from."""
+    @property
+    def fps(self) -> float:
+        """Frames per second."""
+    @property
+    def fps_known(self) -> bool:
+        """Given, or by the times in the file; else it is a guess."""
+    @property
+    def conventions(self) -> str:
+        """Up axis, hand and unit of the file, and how they are known."""
+    @property
+    def bones(self) -> list[str]:
+        """The bones' names, if the file has them."""
+    @property
+    def notes(self) -> list[str]:
+        """Sentences: lines left out, where reading stopped."""
+    @property
+    def chains(self) -> list[TraceChain]:
+        """Each chain's frames."""
+    @property
+    def incidents(self) -> list[Incident]:
+        """Everything that was found, chain by chain."""
+
+def load_character(path: str | os.PathLike[str], *, progress: Callable[[float], object] | None = None) -> Character:
+    """Reads a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. A damaged one is a ValueError that begins with its name and says
+    the place: "walk.bvh, line 12: expected CHANNELS". `progress` is called with the part read, 0 to 1, up to 20 times a
+    second and at the end; an exception from it, or Ctrl+C, ends the reading. Other Python threads run meanwhile, here and
+    in all functions of characters and traces."""
+def lint(
+        clip: Clip, *, settings: LintSettings | None = None, ground: Ground | None = None, rate: float = ...,
+        skating: float = ..., floating: float = ..., sinking: float = ..., knee: float = ..., turn: float = ...,
+        shift: float = ..., beyond: float = ...) -> LintReport:
+    """Finds the faults of a clip: feet that skate, float and sink, knees that pop, joints that jump. Heights are from
+    `ground`, or from a level floor found in the clip."""
+def cure(
+        clip: Clip, finding: Finding, *, settings: LintSettings | None = None, ground: Ground | None = None,
+        rate: float = ..., skating: float = ..., floating: float = ..., sinking: float = ..., knee: float = ...,
+        turn: float = ..., shift: float = ..., beyond: float = ...) -> Clip:
+    """The clip without that fault and with no new one. ValueError for a fault that has no cure, or one of another clip."""
+def plant_feet(clip: Clip, ground: Ground | None = None, *, rate: float | None = None) -> Clip:
+    """The clip with its feet on the ground, by default level at height 0. Needs two legs. `rate`: frames per second."""
+def travel(clip: Clip, *, rate: float | None = None) -> Clip:
+    """A clip that walks in place goes along, at the speed of its standing foot; another stays as it is."""
+def retarget(clip: Clip, to: Character) -> Clip:
+    """The clip for another character: limbs point as they do here, and the feet stand where they do."""
+def save_clip(path: str | os.PathLike[str], clip: Clip, *, original: Clip | None = None, rate: float | None = None, ground: Ground | None = None) -> SaveReport:
+    """Writes a .bvh, .gltf or .glb file, whole or not at all, and reads it back. A glTF of a character from glTF keeps its
+    meshes and materials. It replaces a file of these kinds, but never the character's own. `original`: the clip before
+    cures, which the report compares; `rate`: frames per second; `ground`: what its feet stand on, for the report."""
+def load_trace(path: str | os.PathLike[str], *, fps: float | None = None, up: str = "", handed: str = "", unit: str = "", rotations: str = "", target_joint: int | None = None) -> Trace:
+    """Reads what an engine logged (JSON Lines, CSV, .trc or any log with positions in it) and explains it: flips, NaN, bones
+    that change length, lag, jitter, jumps. The rest overrides the file: `up` "y" or "z", `handed` "right" or "left", `unit`
+    "m", "cm" or "mm", `rotations` "xyzw" or "wxyz", `target_joint` the joint that reaches for the target."""
