@@ -43,6 +43,29 @@ TEST(RopeFriction, SlidesBeyondTheTangent) {
             }
 }
 
+/// A stiff stick on two bars, where links touch between their ends and slide over them.
+TEST(RopeFriction, AStickOnTwoBarsObeysCoulomb) {
+    for (const int segments : {2, 4, 16})
+        for (const float friction : {0.1f, 0.3f, 0.8f})
+            for (const double beyond : {-0.02, 0.1}) {
+                const double angle = std::atan(static_cast<double>(friction)) + beyond;
+                const glm::vec3 down(std::sin(angle), std::cos(angle), 0);
+                World world = world_with({.damping = 0.0f, .gravity = -9.81f * down, .friction = friction});
+                for (const float x : {-0.45f, 0.4f})
+                    world.add_collider(x < 0 ? "lower" : "upper",
+                                       Capsule{{x, -0.05f, -1}, {x, -0.05f, 1}, 0.03f});
+                world.add_rope(
+                    "stick", {.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = segments, .bending = 1000.0f});
+                const double before = world.energy(), mu = static_cast<double>(friction);
+                const double expected = 0.5 * 0.25 * 9.81 * (std::sin(angle) - mu * std::cos(angle));
+                run(world, 0.5);
+                EXPECT_NEAR(-1.0 - world.state().position[0].x, std::max(0.0, expected),
+                            beyond < 0.0 ? 1e-4 : 0.1 * expected)
+                    << segments << ' ' << friction;
+                EXPECT_LT(world.energy() - before, 1e-3 * weight(world)) << segments << ' ' << friction;
+            }
+}
+
 /// A rope sliding on level ground stops after v^2 / (2 mu g).
 TEST(RopeFriction, ASlidingRopeStops) {
     for (const Solver solver : all_solvers) {

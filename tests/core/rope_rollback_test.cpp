@@ -28,7 +28,8 @@ void play(std::uint64_t seed, int operations) {
                                    : world.settings().substep * static_cast<double>(hostile.random.below(3));
         rope::Workspace fresh, other;
         static_cast<void>(other.use_vector_unit(units[hostile.random.below(units.size())]));
-        world.advance(seconds, kept, {.max_substeps = 3});
+        const rope::Advance done = world.advance(seconds, kept, {.max_substeps = 3});
+        ASSERT_LE(done.work, static_cast<std::uint64_t>(done.substeps) * max_work(copy)) << seed << ' ' << i;
         copy.advance(seconds, fresh, {.max_substeps = 3});
         again->advance(seconds, other, {.max_substeps = 3});
         ASSERT_TRUE(same_bits(world.state(), copy.state())) << "a copy, " << seed << ' ' << i;

@@ -138,4 +138,13 @@ inline World busy_world(rope::Solver solver) {
     return world;
 }
 
+/// The maximum number of links and contacts that a substep may visit: passes over everything, searches for
+/// ways out, and links near thin colliders.
+inline std::uint64_t max_work(const rope::World& world) {
+    const std::size_t particles = world.size(), links = world.state().links.size();
+    const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);
+    const std::size_t passes = 2 * rope::unbounded_passes;
+    return passes * (links + pairs) + rope::max_pass_work + 256 * particles * world.state().colliders.size();
+}
+
 }  // namespace tendril::test

@@ -21,6 +21,8 @@ constexpr int following_steps = 5;
 constexpr double unmeasured = 1e30;  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double min_slip = 1e-7;
+/// Part of the limit by which friction may miss it while a particle slips by more than ten times that.
+constexpr double friction_tolerance = 0.05;
 
 dvec3 tangential(const dvec3& v, const dvec3& normal) {
     return v - dot(v, normal) * normal;
@@ -180,6 +182,13 @@ bool ChainNewton::update_contacts() {
     if (!s_.bends.empty()) choose_deepest();
     for (ContactScratch::Contact& contact : s_.contacts) changed |= update_planes(contact);
     for (ContactScratch::LinkContact& contact : s_.link_contacts) changed |= update_link(contact);
+    s_.progress.excess = 0.0;
+    for (const bool sums : {true, false}) {
+        if (sums && !s_.progress.moved) continue;  // no drag yet
+        for (ContactScratch::Contact& contact : s_.contacts) changed |= apply_friction(contact, sums);
+        for (ContactScratch::LinkContact& contact : s_.link_contacts)
+            changed |= apply_link_friction(contact, sums);
+    }
     return changed;
 }
 
@@ -257,17 +266,33 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         effect.gap[at] = plane.gap;
         effect.planes = std::min(effect.planes + 1, max_planes);
     }
-    apply_friction(contact);
     return changed;
 }
 
+/// Sets the drag on slip that gives the limiting friction; first only sums by how much the last drag missed
+/// it. If that is too much in all, everything slips as much farther as moves the whole chain. Returns whether
+/// friction requires another step.
+bool ChainNewton::set_drag(double& drag, double limit, double slip, bool sums) {
+    const double excess = drag > 0.0 ? drag * slip - limit : 0.0;
+    if (sums) {
+        s_.progress.excess += excess;
+        return false;
+    }
+    const double missed = slip > 10.0 * min_slip ? std::abs(excess) : excess;
+    drag = limit / std::max(slip + std::max(0.0, s_.progress.excess) / s_.progress.mass, min_slip);
+    return s_.progress.may_release && missed > friction_tolerance * limit;
+}
+
 /// Friction of a particle.
-void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
+bool ChainNewton::apply_friction(ContactScratch::Contact& contact, bool sums) {
     const detail::ChainNode& node = s_.nodes[contact.node];
     detail::NodeContact& effect = s_.node_effects[static_cast<std::size_t>(node.contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
     effect.drag = 0.0;
-    if (effect.planes == 0 || friction == 0.0) return;
+    if (effect.planes == 0 || friction == 0.0) {
+        contact.drag = 0.0;
+        return false;
+    }
     dvec3 by(0.0);
     for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
         if (s_.planes[p].active && s_.planes[p].normal == effect.normal[0]) by = s_.planes[p].by;
@@ -284,8 +309,25 @@ void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slip_distance = std::max(before, alone);
     }
+    const bool changed = set_drag(contact.drag, friction * normal, slip_distance, sums);
     effect.slip = slip;
-    effect.drag = friction * normal / std::max(slip_distance, min_slip);
+    effect.drag = contact.drag;
+    return changed;
+}
+
+/// Whether a contact at a position on a link is one of the end next to it, which touches as well. If a stiff
+/// rope had both, tiny differences of their gaps would make their forces many times its weight.
+bool ChainNewton::holds_end(const ContactScratch::LinkContact& contact, std::uint32_t collider,
+                            double at) const {
+    const double apart = std::min(at, 1.0 - at) * s_.bonds[contact.bond].rest;
+    if (apart * apart > 4.0 * thickness(collider) * touch_distance)
+        return false;  // the end of a straight link is clear
+    const detail::ChainNode& node = s_.nodes[contact.bond + (at < 0.5 ? 0 : 1)];
+    const ContactScratch::Contact& end = s_.contacts[static_cast<std::size_t>(node.contact)];
+    const auto first = s_.planes.begin() + end.first;
+    return std::any_of(first, first + end.count, [&](const ContactScratch::Plane& plane) {
+        return plane.active && plane.collider == collider;
+    });
 }
 
 bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
@@ -294,17 +336,15 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     const dvec3 a = s_.nodes[contact.bond].x, b = s_.nodes[contact.bond + 1].x;
     const bool was = effect.active;
     if (was) {
-        const double thick = 0.5 * collider(contact.collider).size + radius_;
         effect.gap = dot(effect.normal, a + effect.at * (b - a) - contact.point);
-        if (effect.gap < -thick) return true;  // it has passed through
+        if (effect.gap < -thickness(contact.collider)) return true;  // it has passed through
         if (rests() && !(s_.progress.may_release && effect.multiplier < 0.0)) {
-            apply_link_friction(contact);
             return effect.gap <
                    (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance);
         }
     }
-    double deepest =
-        was && (!s_.progress.may_release || effect.multiplier >= 0.0) ? touch_distance : -allowed_depth;
+    const bool keeps = !s_.progress.moved || (was && (!s_.progress.may_release || effect.multiplier >= 0.0));
+    double deepest = keeps ? touch_distance : -allowed_depth;
     std::uint32_t touched = ~0u;
     effect.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
@@ -318,7 +358,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
             moving.first_touch(start, moved ? now : free, radius_, local_.done.work);
         const bool swept = at.has_value();
         if (!swept) at = moving.nearest(moved ? now : start, reach, local_.done.work);
-        if (!at) continue;
+        if (!at || holds_end(contact, s_.link_colliders[c], at->along)) continue;
         const dvec3 normal = at->surface.normal;
         const double distance = at->surface.distance - radius_;
         const dvec3 point = at->point - distance * normal;
@@ -346,17 +386,21 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         (effect.active &&
          effect.gap < (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance));
     contact.collider = touched;
-    if (effect.active) apply_link_friction(contact);
     return changed;
 }
 
 /// Friction of a link: its ends share the drag.
-void ChainNewton::apply_link_friction(const ContactScratch::LinkContact& contact) {
+bool ChainNewton::apply_link_friction(ContactScratch::LinkContact& contact, bool sums) {
     const detail::BondContact& effect =
         s_.bond_effects[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
-    const double normal = std::max(0.0, effect.multiplier);
-    if (friction == 0.0 || normal == 0.0) return;
+    const bool holds =
+        effect.active && effect.gap >= -thickness(contact.collider);  // it has not passed through
+    const double normal = holds ? std::max(0.0, effect.multiplier) : 0.0;
+    if (friction == 0.0 || normal == 0.0) {
+        contact.drag = 0.0;
+        return false;
+    }
     const detail::ChainNode &a = s_.nodes[contact.bond], &b = s_.nodes[contact.bond + 1];
     const auto slip_of = [&](std::uint32_t node) {
         const dvec3 start = state_.position[particle(node)];
@@ -365,23 +409,29 @@ void ChainNewton::apply_link_friction(const ContactScratch::LinkContact& contact
     };
     const dvec3 slip_a = slip_of(contact.bond), slip_b = slip_of(contact.bond + 1);
     const double t = effect.at;
-    double slip_distance = detail::length((1.0 - t) * slip_a + t * slip_b);
-    if (!s_.progress.moved) {
+    const dvec3 slip = (1.0 - t) * slip_a + t * slip_b;
+    double slip_distance = detail::length(slip);
+    if (!s_.progress.moved) {  // as for a particle
         const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
                              t * state_.displacement[particle(contact.bond + 1)];
-        const Scratch::Moving& moving = collider(contact.collider);
-        const dvec3 by = moving.spins ? moving.move_at((1.0 - t) * a.x + t * b.x) : moving.by;
-        slip_distance = detail::length(tangential(before - by, effect.normal));
+        const dvec3 by = collider(contact.collider).move_at((1.0 - t) * a.x + t * b.x);
+        const double to_a = a.pinned ? 0.0 : (1.0 - t) / a.mass, to_b = b.pinned ? 0.0 : t / b.mass;
+        const dvec3 free = slip + tangential(to_a * a.force + to_b * b.force, effect.normal);
+        const double braked = friction * normal * ((1.0 - t) * to_a + t * to_b);
+        slip_distance =
+            std::max(detail::length(tangential(before - by, effect.normal)), detail::length(free) - braked);
     }
-    const double drag = friction * normal / std::max(slip_distance, min_slip);
-    const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
+    const bool changed = set_drag(contact.drag, friction * normal, slip_distance, sums);
+    if (sums) return false;
+    const auto share = [&](const detail::ChainNode& node, double part, const dvec3& its_slip) {
         detail::NodeContact& end = s_.node_effects[static_cast<std::size_t>(node.contact)];
-        if (end.planes > 0) return;  // it has its own friction
-        end.drag = part * drag;
-        end.slip = slip;
+        const double drag = part * contact.drag;
+        end.drag += drag;  // with other contacts' shares
+        if (end.drag > 0.0) end.slip += (drag / end.drag) * (its_slip - end.slip);
     };
     share(a, 1.0 - t, slip_a);
     share(b, t, slip_b);
+    return changed;
 }
 
 }  // namespace tendril::rope

@@ -41,13 +41,14 @@ void ChainNewton::begin() {
     s_.nodes.resize(chain.links + 1);
     s_.bonds.resize(chain.links);
     s_.saved.resize(chain.links + 1);
+    double mass = 0.0;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = particle(k);
         detail::ChainNode& node = s_.nodes[k];
         node.base = scratch_.base[i];
         node.pinned = scratch_.weight[i] == 0.0;
         node.x = node.pinned ? node.base : state_.position[i];
-        node.mass = state_.mass[i];
+        mass += node.mass = state_.mass[i];
         node.contact = node.push = -1;
         if (k == chain.links) break;
         const Link& link = state_.links[chain.first_link + k];
@@ -63,6 +64,7 @@ void ChainNewton::begin() {
     for (std::size_t c = 0; c < s_.contacts.size(); ++c) {
         ContactScratch::Contact& contact = s_.contacts[c];
         s_.nodes[contact.node].contact = static_cast<std::int32_t>(c);
+        contact.drag = 0.0;
         for (std::uint32_t p = 0; p < contact.count; ++p) begin_plane(contact, s_.planes[contact.first + p]);
     }
     s_.bond_effects.assign(s_.link_contacts.size(), {});
@@ -70,10 +72,11 @@ void ChainNewton::begin() {
     for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
         s_.bonds[s_.link_contacts[c].bond].contact = static_cast<std::int32_t>(c);
         s_.link_contacts[c].collider = ~0u;
+        s_.link_contacts[c].drag = 0.0;
     }
     s_.pushes.clear();
     begin_bends();
-    s_.progress = {};
+    s_.progress = {.mass = mass};
     detail::ChainSystem system = this->system();
     system.evaluate(0.0);
     s_.progress.worst = system.max_error();

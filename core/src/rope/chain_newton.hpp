@@ -46,6 +46,7 @@ class ChainNewton {
 
   private:
     const Scratch::Moving& collider(std::uint32_t number) const { return scratch_.colliders[number]; }
+    double thickness(std::uint32_t number) const { return 0.5 * collider(number).size + radius_; }
     std::uint32_t particle(std::uint32_t node) const;
     ContactScratch::Contact& contact_of(std::uint32_t node);
     std::span<const IslandScratch::Near> near_of(std::uint32_t particle, std::uint32_t& chunk) const;
@@ -58,9 +59,11 @@ class ChainNewton {
     void measure_planes(const ContactScratch::Contact& contact);
     void choose_deepest();
     bool update_planes(ContactScratch::Contact& contact);
-    void apply_friction(ContactScratch::Contact& contact);
+    bool set_drag(double& drag, double limit, double slip, bool sums);
+    bool apply_friction(ContactScratch::Contact& contact, bool sums);
+    bool holds_end(const ContactScratch::LinkContact& contact, std::uint32_t collider, double at) const;
     bool update_link(ContactScratch::LinkContact& contact);
-    void apply_link_friction(const ContactScratch::LinkContact& contact);
+    bool apply_link_friction(ContactScratch::LinkContact& contact, bool sums);
     void push_colliders() const;
     void push_planes(const ContactScratch::Contact& contact, const detail::NodeContact& effect,
                      double per_substep) const;

@@ -59,10 +59,10 @@ std::optional<Scratch::Moving::At> Scratch::Moving::nearest(const Segment& at, d
                                                             std::uint64_t& work) const {
     const dvec3 along = at[1] - at[0];
     if (far_from(at[0] + 0.5 * along, reach + 0.5 * detail::length(along))) return std::nullopt;
-    work += detail::max_line_samples;
-    const std::optional<double> part = detail::nearest_between(*shape, at[0], at[1], reach);
+    const std::optional<double> part = detail::nearest_between(*shape, at[0], at[1], reach, work);
     if (!part) return std::nullopt;
     const dvec3 point = at[0] + *part * along;
+    ++work;
     return At{*part, point, surface_distance(*shape, point)};
 }
 

@@ -13,12 +13,6 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-dvec3 smaller(const dvec3& a, const dvec3& b) {
-    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-dvec3 larger(const dvec3& a, const dvec3& b) {
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
 dvec3 absolute(const dvec3& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
@@ -34,11 +28,13 @@ double nearest_to(const dvec3& point, const dvec3& a, const dvec3& b) {
 struct ConvexLine {
     const Shape& shape;
     dvec3 from, by;
+    std::uint64_t& work;
 
     struct Point {
         double t, distance, slope;
     };
     Point at(double t) const {
+        ++work;
         const SurfaceDistance surface = surface_distance(shape, from + t * by);
         return {t, surface.distance, dot(surface.normal, by)};
     }
@@ -51,8 +47,8 @@ void bounds(const Shape& shape, const dvec3& by, dvec3& low, dvec3& high) noexce
         low = dvec3(sphere->centre) - dvec3(sphere->radius);
         high = dvec3(sphere->centre) + dvec3(sphere->radius);
     } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-        low = smaller(dvec3(capsule->a), dvec3(capsule->b)) - dvec3(capsule->radius);
-        high = larger(dvec3(capsule->a), dvec3(capsule->b)) + dvec3(capsule->radius);
+        low = glm::min(dvec3(capsule->a), dvec3(capsule->b)) - dvec3(capsule->radius);
+        high = glm::max(dvec3(capsule->a), dvec3(capsule->b)) + dvec3(capsule->radius);
     } else if (const auto* box = std::get_if<Box>(&shape)) {
         const Axes axes(box->rotation);
         const dvec3 half(box->half_extents);
@@ -63,8 +59,8 @@ void bounds(const Shape& shape, const dvec3& by, dvec3& low, dvec3& high) noexce
         low = dvec3(-endless);
         high = dvec3(endless);
     }
-    low = smaller(low, low - by);
-    high = larger(high, high - by);
+    low = glm::min(low, low - by);
+    high = glm::max(high, high - by);
 }
 
 bool beyond(const Shape& shape, const dvec3& low, const dvec3& high) noexcept {
@@ -76,18 +72,19 @@ bool beyond(const Shape& shape, const dvec3& low, const dvec3& high) noexcept {
     return dot(deepest - dvec3(plane->point), normal) > 0.0;
 }
 
-std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const dvec3& b,
-                                      double reach) noexcept {
+std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const dvec3& b, double reach,
+                                      std::uint64_t& work) noexcept {
+    constexpr int max_samples = 14;
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
         const double t = nearest_to(dvec3(sphere->centre), a, b);
         return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
     }
     if (std::holds_alternative<Plane>(shape)) return std::nullopt;  // an end is always at least as near
-    const ConvexLine line{shape, a, b - a};
+    const ConvexLine line{shape, a, b - a, work};
     ConvexLine::Point low = line.at(0.0), high = line.at(1.0);
     if (!(low.slope < 0.0 && high.slope > 0.0)) return std::nullopt;
     const double precise = 1e-9 * length(line.by);
-    for (int i = 2; i < max_line_samples; ++i) {
+    for (int i = 2; i < max_samples; ++i) {
         // The tangents at both ends cross at a lower bound of the distance in between.
         const double bend = high.slope - low.slope, width = high.t - low.t;
         const double cross = (low.distance - high.distance + high.slope * width) / bend;

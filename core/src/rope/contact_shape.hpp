@@ -1,6 +1,7 @@
 // Geometry of shapes for finding contacts. Not installed.
 #pragma once
 
+#include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -16,11 +17,10 @@ void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec
 /// Whether an axis-aligned box is entirely outside; only for shapes without useful bounds (planes).
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
-inline constexpr int max_line_samples = 14;
 /// Where the line from a (0) to b (1) is nearest to a shape, or deepest inside it. No value if that is an
-/// end, or farther than `reach` away. Computes at most max_line_samples distances.
+/// end, or farther than `reach` away. Adds the distances computed, 14 at most, to `work`.
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
-                                      double reach) noexcept;
+                                      double reach, std::uint64_t& work) noexcept;
 
 /// A capsule's middle, in double precision: a capsule moved to its own middle does not move.
 glm::dvec3 middle_of(const Capsule& capsule) noexcept;

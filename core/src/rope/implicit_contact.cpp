@@ -8,11 +8,7 @@
 #include "rope/implicit_step.hpp"
 
 namespace tendril::rope {
-namespace {
-
 using glm::dvec3;
-
-}  // namespace
 
 /// Finds contacts that penetrate, or that pressed in the previous solve; always in the same order.
 void ImplicitStep::find_contacts(bool first) {

@@ -72,6 +72,7 @@ struct ContactScratch {
         std::uint32_t node = 0;
         std::uint32_t first = 0, count = 0;  ///< in `planes`
         bool deferred = false;               ///< for a deeper contact nearby
+        double drag = 0.0;                   ///< its own friction, as in NodeContact
     };
     /// A contact with colliders so small that a link can touch them between its ends.
     struct LinkContact {
@@ -79,6 +80,7 @@ struct ContactScratch {
         std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
         std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
         glm::dvec3 point{0.0};                 ///< on its plane
+        double drag = 0.0;                     ///< friction, as in NodeContact
     };
     struct Saved {
         glm::dvec3 x{0.0};
@@ -98,6 +100,8 @@ struct ContactScratch {
     std::vector<detail::NodePush> pushes;  ///< by contacts with other segments
     /// Progress of the solve.
     struct {
+        double mass = 0.0;    ///< of the chain
+        double excess = 0.0;  ///< of friction over its limit, in all
         double extra_stiffness = 0.0, used_stiffness = 0.0, turn = 1.0, worst = 0.0;
         int steps_taken = 0, rejected = 0, divergences = 0;
         bool moved = false;        ///< a step was taken
