@@ -169,8 +169,7 @@ int run(const SessionOptions& options) {
 
 /// True if the user has already chosen the lab's setting that the command changes.
 bool is_chosen(const Lab& lab, const Settings& settings, const std::string& command) {
-    const std::vector<LabSetting> all = lab.all_settings();
-    return std::any_of(all.begin(), all.end(), [&](const LabSetting& each) {
+    return std::ranges::any_of(lab.all_settings(), [&](const LabSetting& each) {
         return each.command == command && settings.choices.contains(each.key);
     });
 }

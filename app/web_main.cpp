@@ -20,20 +20,19 @@
 namespace tendril::app {
 namespace {
 
-const std::atomic<bool> never{false};
+std::atomic<bool> ending{false};
 
 /// Lives as long as the page.
 struct Page {
     std::unique_ptr<Window> window = open_window(Backend::Glfw, {1, 1});  // the page decides the size
     App app{*window};
-    LiveLoop live{app, *window, {.config = true, .ending = never}};
+    LiveLoop live{app, *window, {.config = true, .ending = ending}};
     Player player{Script{}};
 };
 std::unique_ptr<Page> page;
 
 // clang-format off
 EM_JS(void, show_failure, (const char* text), { tendrilFailed(UTF8ToString(text)); });
-EM_JS(void, keep_files, (), { tendrilKeepFiles(); });
 EM_JS(void, show_page, (), { tendrilReady(); });
 EM_JS(void, show_address, (const char* scene), { tendrilAddress(UTF8ToString(scene)); });
 // clang-format on
@@ -62,19 +61,17 @@ void update_address() {
 }
 
 void pass() {
-    constexpr int passes_between = 300;  // frames; about 5 s
-    static int passes = 0;
+    static bool shown = false;
     try {
         page->live.pass(page->player, std::nullopt);
-        if (++passes == 1) show_page();
+        if (!std::exchange(shown, true)) show_page();
         update_address();
-        if (passes % passes_between == 0) keep_files();
     } catch (const std::exception& error) {
         fail(error);
     }
 }
 
-void start(const std::string& scene) {
+void start(const std::string& scene, const std::string& lab) {
     page = std::make_unique<Page>();
     SessionOptions options;
     options.scene = scene;
@@ -85,15 +82,11 @@ void start(const std::string& scene) {
         settings.left_open = settings.right_open = false;
     }
     offer_cards(page->app);
+    if (!lab.empty()) page->app.run({"lab.open", Json{{"name", lab}}});
     open_scene(page->app, options);
     page->live.begin();
     emscripten_set_main_loop(pass, 0, false);
 }
-
-}  // namespace
-}  // namespace tendril::app
-
-namespace {
 
 /// Valid until the next call.
 const char* handed_out(std::string text) {
@@ -103,30 +96,43 @@ const char* handed_out(std::string text) {
 }
 
 }  // namespace
+}  // namespace tendril::app
 
 // For scripts on the page. Texts are UTF-8.
 
 /// The state that --state writes, as JSON: the open lab's numbers, and handles with their pixels.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_state() {
-    return handed_out(tendril::app::page ? tendril::app::page->app.state().dump() : "null");
+    using namespace tendril::app;
+    return handed_out(page ? page->app.state().dump() : "null");
 }
 
 /// Runs a command with a JSON object of arguments. Returns the reason if it is refused, otherwise an empty
 /// text.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_run(const char* command, const char* arguments) {
-    if (!tendril::app::page) return "the program has not started";
+    using namespace tendril::app;
+    if (!page) return "the program has not started";
     try {
-        tendril::app::page->app.run({command, tendril::app::Json::parse(arguments)});
+        page->app.run({command, Json::parse(arguments)});
         return "";
     } catch (const std::exception& refused) {
         return handed_out(refused.what());
     }
 }
 
-/// `arguments`: a scene file to open, or none.
-int main(int count, char** arguments) {
+/// Writes unsaved work to the program's folder: the page is about to be hidden or closed.
+extern "C" EMSCRIPTEN_KEEPALIVE void tendril_keep() {
+    using namespace tendril::app;
+    if (!page) return;
+    ending = true;
+    page->live.end();
+    ending = false;
+    page->live.begin();
+}
+
+/// `arguments`: a file to open and a lab, or empty texts.
+int main(int, char** arguments) {
     try {
-        tendril::app::start(count > 1 ? arguments[1] : "");
+        tendril::app::start(arguments[1], arguments[2]);
     } catch (const std::exception& error) {
         tendril::app::fail(error);
     }

@@ -24,8 +24,7 @@ bool FileDialog::is_listed(const fs::path& file) const {
     if (picturing()) return ending == ".png";
     if (saving()) return ending == ".json";
     if (filter_ > 0) return has_ending(kinds_[static_cast<std::size_t>(filter_ - 1)], file);
-    return std::any_of(kinds_.begin(), kinds_.end(),
-                       [&](const FileKind& kind) { return has_ending(kind, file); });
+    return std::ranges::any_of(kinds_, [&](const FileKind& kind) { return has_ending(kind, file); });
 }
 
 void FileDialog::open_folder(const fs::path& folder) {

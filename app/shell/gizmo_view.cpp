@@ -81,8 +81,7 @@ bool end_button(const End& end, float radius, bool& hovered) {
 
 /// "Front" if the view is straight along an axis, else the projection's name.
 std::string view_name(const CameraPose& pose, const std::array<End, 6>& ends) {
-    const char* const title = ends.back().depth > 0.99999f ? axes[ends.back().axis].title : nullptr;
-    if (title != nullptr) return title;
+    if (ends.back().depth > 0.99999f) return axes[ends.back().axis].title;
     return pose.orthographic ? "Orthographic" : "Perspective";
 }
 

@@ -68,7 +68,7 @@ struct LegendColumns {
     std::vector<float> widths;
     float apart = 0.0f;
 
-    LegendColumns(std::span<const LegendRow> rows, float scale) : apart(14.0f * scale) {
+    LegendColumns(std::span<const LegendRow> rows, const Rect& view, float scale) : apart(14.0f * scale) {
         const auto take = [&](std::size_t column, const std::string& text) {
             if (column >= widths.size()) widths.resize(column + 1, 0.0f);
             widths[column] = std::max(widths[column], ImGui::CalcTextSize(text.c_str()).x);
@@ -78,10 +78,8 @@ struct LegendColumns {
             for (std::size_t i = 0; i < row.numbers.size(); ++i) take(i + 1, row.numbers[i]);
             for (std::size_t i = 0; i < row.widest.size(); ++i) take(i + 1, row.widest[i]);
         }
-    }
-    /// Leaves out the numbers if they do not fit.
-    void fit(float room) {
-        if (!widths.empty() && total() > room) widths.resize(1);
+        // With numbers that are too wide, it would cover the scene.
+        if (!widths.empty() && total() > 0.55f * view.size().x) widths.resize(1);
     }
     float total() const {
         float sum = -apart;
@@ -90,19 +88,13 @@ struct LegendColumns {
     }
 };
 
-LegendColumns legend_columns(std::span<const LegendRow> rows, const Rect& view, float scale) {
-    LegendColumns columns(rows, scale);
-    columns.fit(0.55f * view.size().x);  // wider, it would cover the scene
-    return columns;
-}
-
 }  // namespace
 
 Rect legend_box(std::span<const LegendRow> rows, const Rect& view, float scale, ViewCorner corner) {
     const bool small = view.size().y < 300.0f * scale || view.size().x < 260.0f * scale;
     if (rows.empty() || small) return {view.min, view.min};  // the picture takes precedence
     ImGui::PushFont(small_font());
-    const float wide = legend_columns(rows, view, scale).total();
+    const float wide = LegendColumns(rows, view, scale).total();
     const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
     ImGui::PopFont();
     const glm::vec2 size{30.0f * scale + wide, height};
@@ -119,7 +111,7 @@ Rect show_legend(std::span<const LegendRow> rows, const Rect& view, const Palett
     const Rect box = legend_box(rows, view, scale, corner);
     if (box.size().y <= 0.0f) return box;
     ImGui::PushFont(small_font());
-    const LegendColumns columns = legend_columns(rows, view, scale);
+    const LegendColumns columns(rows, view, scale);
     const float line = 1.35f * ImGui::GetFontSize();
     float y = box.min.y;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
@@ -163,13 +155,9 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
         const float axes = beside ? axis_gizmo_width(rect.size(), scale) : 0.0f;
         const float room = rect.size().x - 2.0f * inset - axes;
         const ImVec2 corner{rect.min.x + inset, rect.min.y + 0.7f * inset};
-        const auto size_of = [&](const std::string& text, ImFont* font) {
-            ImGui::PushFont(font);
-            const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
-            ImGui::PopFont();
-            return size;
-        };
-        const ImVec2 name = size_of(title.text, heading_font());
+        ImGui::PushFont(heading_font());
+        const ImVec2 name = ImGui::CalcTextSize(title.text.c_str(), nullptr, false, room);
+        ImGui::PopFont();
         if (corner.y + name.y > rect.max.y) continue;
         const float below = corner.y + name.y + 1.0f * scale;
         ImGui::PushFont(small_font());

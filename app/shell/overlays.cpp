@@ -55,10 +55,10 @@ std::vector<std::string_view> sections_of_lab(const ShellFrame& frame) {
     std::vector<std::string_view> sections;
     for (const Shortcut& shortcut : frame.shortcuts.all()) {
         const std::string_view section = shortcut.section;
-        const bool known =
-            std::find(sections.begin(), sections.end(), section) != sections.end() ||
-            std::any_of(frame.shortcuts.all().begin(), frame.shortcuts.all().end(),
-                        [&](const Shortcut& s) { return s.lab.empty() && s.section == section; });
+        const bool known = std::ranges::find(sections, section) != sections.end() ||
+                           std::ranges::any_of(frame.shortcuts.all(), [&](const Shortcut& s) {
+                               return s.lab.empty() && s.section == section;
+                           });
         if (!known && frame.works_here(shortcut)) sections.push_back(section);
     }
     return sections;

@@ -75,28 +75,28 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
     ImGui::PopStyleColor();
 }
 
-/// The strip that a folded panel leaves, to unfold it.
-void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& emit) {
-    begin_region(left ? "left strip" : "right strip", rect, frame.colours().panel, {0.0f, 0.0f});
+/// A folded panel's strip, which unfolds it. The strip above the panel below the scene also folds that.
+void fold_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& emit) {
+    const bool below = !left && frame.layout.upright, folds = below && frame.layout.right_open;
     const bool pressed = ImGui::InvisibleButton("unfold", {rect.size().x, std::max(1.0f, rect.size().y)});
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (hovered) {
         list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                             ImGui::GetColorU32(ImGuiCol_ButtonHovered));
-        tooltip(with_keys(frame, "Show the panel", "view.panels"));
+        tooltip(with_keys(frame, folds ? "Hide the panel" : "Show the panel", "view.panels"));
     }
-    const float inner = left ? rect.max.x - 1.0f : rect.min.x;
-    list->AddLine({inner, rect.min.y}, {inner, rect.max.y}, ImGui::GetColorU32(ImGuiCol_Border));
-    draw_icon(list, left ? Icon::ChevronRight : Icon::ChevronLeft, {rect.centre().x, rect.centre().y},
-              std::min(0.8f * rect.size().x, 14.0f * frame.layout.scale),
+    const glm::vec2 end = left ? glm::vec2(rect.max.x - 1.0f, rect.min.y) : rect.min;
+    list->AddLine({end.x, end.y}, {below ? rect.max.x : end.x, below ? end.y : rect.max.y},
+                  ImGui::GetColorU32(ImGuiCol_Border));
+    const Icon icon = folds ? Icon::ChevronDown : left || below ? Icon::ChevronRight : Icon::ChevronLeft;
+    draw_icon(list, icon, {rect.centre().x, rect.centre().y},
+              std::min(0.8f * std::min(rect.size().x, rect.size().y), 14.0f * frame.layout.scale),
               ImGui::GetColorU32(hovered ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-    if (pressed && frame.layout.one_panel) {
-        emit("view.panels", {{left ? "left" : "right", true}, {left ? "right" : "left", false}});
-    } else if (pressed) {
-        emit("view.panels", {{left ? "left" : "right", true}});
-    }
-    ImGui::End();
+    if (!pressed) return;
+    ArgumentList panels{{left ? "left" : "right", !folds}};
+    if (frame.layout.one_panel && !folds) panels.push_back({left ? "right" : "left", false});
+    emit("view.panels", panels);
 }
 
 /// Positions a popup of the bar, which scrolls if the window is too low for it.
@@ -231,16 +231,13 @@ void tools(const ShellFrame& frame, float from, Emit& emit) {
     const Workspace& workspace = frame.workspace;
     const History& history = workspace.history;
     const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
+        ImGui::SameLine(std::exchange(from, 0.0f));
         if (icon_button(command, icon, with_keys(frame, tip.c_str(), command).c_str(), enabled, active))
             emit(command, std::ranges::find(frame.shortcuts.all(), command, &Shortcut::command)->arguments);
     };
-    ImGui::SameLine(from);
     tool("undo", Icon::Undo, undo_title(frame.commands, history), history.can_undo(), false);
-    ImGui::SameLine();
     tool("redo", Icon::Redo, redo_title(frame.commands, history), history.can_redo(), false);
-    ImGui::SameLine();
     tool("view.help", Icon::Help, "Keys and mouse", true, workspace.ui.help);
-    ImGui::SameLine();
     tool("view.settings", Icon::Gear, "Settings", true, workspace.ui.settings);
 }
 
@@ -329,14 +326,21 @@ void Shell::keep_scroll(Scrolled& scrolled) {
 void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const Rect& rect = left ? frame.layout.left : frame.layout.right;
     if (rect.size().x < 1.0f) return;
-    if (!(left ? frame.layout.left_open : frame.layout.right_open)) {
-        folded_strip(frame, rect, left, emit);
-        return;
+    const bool open = left ? frame.layout.left_open : frame.layout.right_open;
+    const bool below = !left && frame.layout.upright;
+    if (!open && !below) {
+        begin_region(left ? "left strip" : "right strip", rect, frame.colours().panel, {0.0f, 0.0f});
+        fold_strip(frame, rect, left, emit);
+        return ImGui::End();
     }
-    const float scale = frame.layout.scale;
+    const float scale = frame.layout.scale, edge = below ? 0.0f : 5.0f * scale;
+    const float above = below ? 24.0f * scale : 0.0f;  // enough for a thumb
     begin_region(left ? "left" : "right", rect, frame.colours().panel, {0.0f, 0.0f});
-    panel_edge(rect, left, scale, emit);
-    ImGui::SetCursorPos({left ? 0.0f : 5.0f * scale, 0.0f});
+    if (below)
+        fold_strip(frame, {rect.min, {rect.max.x, rect.min.y + above}}, left, emit);
+    else
+        panel_edge(rect, left, scale, emit);
+    ImGui::SetCursorPos({left ? 0.0f : edge, above});
     // The scroll bar's space is always reserved, so that nothing shifts when it appears; it is transparent
     // while unneeded.
     float& overflow = overflow_[left ? 0 : 1];
@@ -346,9 +350,9 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab);
     bar.w *= grab;
     ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, bar);
-    const float width = std::max(1.0f, rect.size().x - 5.0f * scale);
-    const float card = left ? 0.0f : card_height(frame, {width, rect.size().y});
-    const float room = card > 0.0f ? std::max(1.0f, rect.size().y - card) : 0.0f;
+    const float width = std::max(1.0f, rect.size().x - edge), height = rect.size().y - above;
+    const float card = left || !open ? 0.0f : card_height(frame, {width, height});
+    const float room = card > 0.0f ? std::max(1.0f, height - card) : 0.0f;
     ImGui::PushID(frame.workspace.lab.c_str());  // each lab's panel keeps its own scroll position
     ImGui::BeginChild("content", {width, room}, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNavFocus |
@@ -370,9 +374,9 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     ImGui::EndChild();
     ImGui::PopID();
     if (card > 0.0f) {
-        ImGui::SetCursorPos({5.0f * scale, room});
+        ImGui::SetCursorPos({edge, above + room});
         ImGui::BeginChild("card", {width, card}, false, ImGuiWindowFlags_NoScrollbar);
-        show_card(frame, {width, rect.size().y}, emit);
+        show_card(frame, {width, height}, emit);
         ImGui::EndChild();
     }
     ImGui::End();
@@ -382,7 +386,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     const Layout& layout = frame.layout;
     NumberEditing& editing = number_editing();
     editing.middle_min = {layout.left.max.x, layout.top.max.y};
-    editing.middle_max = {layout.right.min.x, layout.timeline.min.y};
+    editing.middle_max = {layout.timeline.max.x, layout.timeline.min.y};
     editing.covered = frame.workspace.ui.covered();
     top_bar(frame, emit);
     side_panel(frame, true, emit);
@@ -420,12 +424,14 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
 }
 
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas) {
-    constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
+    constexpr float bar = 44.0f, status = 28.0f, verdict = 116.0f;
     constexpr float min_view = 0.34f;  // fraction of the width that the middle always keeps
 
     // Only one panel fits in a narrow window, or with text so large that two panels would be too narrow for
     // their labels. It may then be as wide as both.
     constexpr float narrow = 900.0f, usual_width = 272.0f;
+    const bool upright = window.x < std::min(narrow, window.y);
+    const float folded = upright ? 24.0f : 12.0f;  // for a thumb, or for the mouse
     const float both = std::max(0.0f, (1.0f - min_view) * window.x);
     const bool one_panel = window.x < narrow || 2.0f * usual_width * scale > both;
     const float most = one_panel ? std::max(0.5f * both, both - folded * scale) : 0.5f * both;
@@ -434,23 +440,24 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     };
     const bool right_open = settings.right_open && !(one_panel && settings.left_open);
     const float left = side(settings.left_open, settings.left_width);
-    const float right = side(right_open, settings.right_width);
+    const float right = upright ? 0.0f : side(right_open, settings.right_width);
     const float top = std::round(bar * scale);
     const float low = std::max(top, window.y - std::round(status * scale));
-    // The scene always keeps half of the height.
-    const float strip = std::min(std::round(timeline * scale), std::max(0.0f, 0.5f * (low - top)));
-    const float middle = low - std::floor(strip);
+    // The scene always keeps half of the height beside the panel, and beside the strip.
+    const float below = upright ? std::min(right_open ? low : verdict * scale, 0.5f * (low - top)) : 0.0f;
+    const float bottom = low - std::floor(below);
+    const float strip = std::min(std::round(timeline * scale), std::max(0.0f, 0.5f * (bottom - top)));
+    const float middle = bottom - std::floor(strip);
 
     Layout layout;
     layout.scale = scale;
-    layout.left_open = settings.left_open;
-    layout.right_open = right_open;
-    layout.one_panel = one_panel;
+    layout.left_open = settings.left_open, layout.right_open = right_open;
+    layout.one_panel = one_panel, layout.upright = upright;
     layout.top = {{0.0f, 0.0f}, {window.x, top}};
     layout.status = {{0.0f, low}, {window.x, window.y}};
     layout.left = {{0.0f, top}, {left, low}};
-    layout.right = {{window.x - right, top}, {window.x, low}};
-    layout.timeline = {{left, middle}, {window.x - right, low}};
+    layout.right = {{upright ? left : window.x - right, upright ? bottom : top}, {window.x, low}};
+    layout.timeline = {{left, middle}, {window.x - right, bottom}};
     const float split = std::round(left + canvas * (window.x - right - left));
     layout.canvas = {{left, top}, {split, middle}};
     layout.view = {{split, top}, {window.x - right, middle}};

@@ -41,11 +41,13 @@ struct Layout {
     float scale = 1.0f;
     bool left_open = true, right_open = true;
     bool one_panel = false;  ///< only one side panel fits
+    bool upright = false;    ///< the right one is below the scene: the window is a phone's
 };
 
 /// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
-/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`: the
-/// fraction of the middle, from the left, that the lab's own plots take from the 3D view, 0 to 1.
+/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. In an upright
+/// one the right panel is below the scene and, folded, leaves the verdict. `canvas`: the fraction of the
+/// middle, from the left, that the lab's own plots take from the 3D view, 0 to 1.
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 /// The contents of a frame of the shell.

@@ -1,9 +1,10 @@
 // The window of a web page: its element #canvas, with WebGL 2, keyboard, mouse and touch. One finger is the
-// left button; two fingers shift the view and zoom.
+// left button; two fingers shift the view and zoom, or scroll a panel.
 #include "app/window/window.hpp"
 
 #include <emscripten/emscripten.h>
 #include <emscripten/html5.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ constexpr const char* canvas = "#canvas";
 const char* const whole_page = EMSCRIPTEN_EVENT_TARGET_WINDOW;
 constexpr float pixels_per_notch = 100.0f, lines_per_notch = 3.0f;  ///< wheel, as browsers report it
 constexpr float zoom_per_notch = 1.1f;  ///< ratio of two fingers' distances that counts as a notch
+constexpr float pixels_scrolled = 75.0f;  ///< by a notch over a panel: five lines, as Dear ImGui does
 
 // clang-format off
 EM_JS(void, show_cursor, (const char* name), { document.getElementById("canvas").style.cursor = UTF8ToString(name); });
@@ -111,6 +113,7 @@ class CanvasWindow final : public Window {
     enum class Fingers { None, One, Two };
     Fingers fingers_ = Fingers::None;
     float apart_ = 1.0f;  ///< distance of two fingers at the last wheel event, pixels
+    float height_ = 0.0f;  ///< of their middle, then
 };
 
 CanvasWindow* CanvasWindow::open = nullptr;
@@ -236,16 +239,21 @@ void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
         const bool presses = now == Fingers::Two || (now == Fingers::One && fingers_ == Fingers::None);
         move_to(static_cast<long>(at.x), static_cast<long>(at.y));
         if (presses) press(now == Fingers::One ? MouseButton::Left : MouseButton::Middle, true);
-        if (now == Fingers::Two) apart_ = std::max(1.0f, glm::length(down[1] - down[0]));
+        if (now == Fingers::None) move_to(-1, -1);  // nothing stays lit under a finger that has gone
+        if (now == Fingers::Two) apart_ = std::max(1.0f, glm::length(down[1] - down[0])), height_ = at.y;
         fingers_ = presses || now == Fingers::None ? now : Fingers::None;
         return;
     }
     if (now == Fingers::None) return;
-    move_to(static_cast<long>(at.x), static_cast<long>(at.y));
+    const bool scrolls = now == Fingers::Two && ImGui::GetIO().WantCaptureMouse;
+    if (!scrolls) move_to(static_cast<long>(at.x), static_cast<long>(at.y));
     if (now != Fingers::Two) return;
     const float apart = std::max(1.0f, glm::length(down[1] - down[0]));
-    pending_.emplace_back(MouseWheel{std::log(apart / apart_) / std::log(zoom_per_notch), 0.0f});
+    const float by = scrolls ? (at.y - height_) / pixels_scrolled
+                             : std::log(apart / apart_) / std::log(zoom_per_notch);
+    pending_.emplace_back(MouseWheel{by, 0.0f});
     apart_ = apart;
+    height_ = at.y;
 }
 
 }  // namespace

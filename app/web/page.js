@@ -1,19 +1,63 @@
-// The page around the program: dropped files, downloads, settings in the browser's storage, scenes in the address.
+// The page around the program: dropped files, downloads, settings and unsaved work in the browser's storage, scenes in
+// the address.
 "use strict";
 
-const kept = "/home/web_user";  // lives in the browser's storage
 const state = document.getElementById("state");
+const embedded = window !== window.top;  // by tendril-view.js; such a page keeps nothing
 
 function tendrilFailed(text) { state.textContent = text; }
 function tendrilReady() { state.textContent = ""; document.getElementById("canvas").focus(); }
 
-function tendrilKeepFiles() {
-    FS.syncfs(false, (error) => { if (error) console.warn(`settings are not kept: ${error}`); });
+// Storage has the JSON files of the program's folder: "tendril/settings.json". It is written at once, so that a page
+// that closes loses nothing. An autosave has the number of its page, where the program has that of its process, and
+// belongs to that page while the page lives.
+const folder = "/home/web_user/.config/tendril", prefix = "tendril/", ownProcess = 42;
+const pageNumber = 1 + Math.floor(Math.random() * 1e9);
+const known = new Set();  // entries that this page has read or written
+
+async function takeKeptFiles() {
+    const lock = (number) => `tendril ${number}`;
+    navigator.locks?.request(lock(pageNumber), () => new Promise(() => {}));  // until the page ends
+    const living = new Set(((await navigator.locks?.query())?.held ?? []).map((each) => each.name));
+    FS.mkdirTree(folder);
+    for (const key of Object.keys(localStorage).filter((each) => each.startsWith(prefix))) {
+        const number = /autosave-(\d+)/.exec(key)?.[1];
+        if (number && living.has(lock(number))) continue;
+        FS.writeFile(`${folder}/${key.slice(prefix.length)}`, localStorage[key]);
+        known.add(key);
+    }
 }
+
+function keepFiles() {
+    if (embedded) return;
+    const now = new Set();
+    try {
+        for (const name of FS.readdir(folder).filter((each) => each.endsWith(".json"))) {
+            const key = prefix + name.replace(`autosave-${ownProcess}`, `autosave-${pageNumber}`);
+            const text = FS.readFile(`${folder}/${name}`, {encoding: "utf8"});
+            now.add(key);
+            if (localStorage[key] !== text) localStorage[key] = text;
+        }
+    } catch (error) {
+        console.warn(`not all is kept: ${error}`);  // a scene that is larger than the storage
+    }
+    for (const key of known) if (!now.has(key)) localStorage.removeItem(key);
+    known.clear();
+    for (const key of now) known.add(key);
+}
+
+function leave() {
+    if (embedded || !Module.calledRun) return;
+    Module.ccall("tendril_keep");
+    keepFiles();
+}
+setInterval(() => { if (Module.calledRun) keepFiles(); }, 5000);
+addEventListener("pagehide", leave);
+addEventListener("visibilitychange", () => { if (document.hidden) leave(); });
 
 // Downloads each file that the program saves, except its settings and unsaved work.
 function tendrilDownload(path) {
-    if (path.startsWith(`${kept}/.config/`)) return;
+    if (path.startsWith(`${folder}/`)) return;
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([FS.readFile(path)]));
     link.download = path.split("/").pop();
@@ -45,8 +89,9 @@ async function tendrilAddress(text) {
     history.replaceState(null, "", fits ? `#scene=${link}` : location.pathname + location.search);
 }
 
-// "#scene=..." is a scene's text: deflated, in base64 with - and _ for + and /.
-async function sceneOfAddress() {
+// "#scene=..." is the text of a scene, a trace or another file that the program opens: deflated (RFC 1951), in base64
+// with - and _ for + and /.
+async function fileOfAddress() {
     const found = /^#scene=([\w-]+)$/.exec(location.hash);
     if (!found) return null;
     const deflated = Uint8Array.from(atob(found[1].replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
@@ -54,47 +99,52 @@ async function sceneOfAddress() {
     return new Uint8Array(await new Response(plain).arrayBuffer());
 }
 
-// The browser's own dialog; it opens only soon after a click or a key.
-function tendrilChoose() {
-    const input = document.createElement("input");
-    input.type = "file";
-    input.onchange = async () => { for (const file of input.files) handOver(file.name, new Uint8Array(await file.arrayBuffer())); };
-    input.click();
+async function handOverAll(files) {
+    for (const file of files) handOver(file.name, new Uint8Array(await file.arrayBuffer()));
 }
 
+// The browser's own dialog; it opens only soon after a click or a key.
+const chooser = document.getElementById("chooser");
+function tendrilChoose() {
+    chooser.value = "";  // the same file may be chosen again
+    chooser.click();
+}
+chooser.addEventListener("change", () => handOverAll(chooser.files));
+
 addEventListener("dragover", (event) => event.preventDefault());
-addEventListener("drop", async (event) => {
+addEventListener("drop", (event) => {
     event.preventDefault();
-    for (const file of event.dataTransfer.files) handOver(file.name, new Uint8Array(await file.arrayBuffer()));
+    handOverAll(event.dataTransfer.files);
 });
 addEventListener("paste", (event) => {
     const text = event.clipboardData.getData("text/plain");
     if (text) Module.ccall("tendril_paste", null, ["string"], [text]);
 });
 addEventListener("contextmenu", (event) => event.preventDefault());
-addEventListener("visibilitychange", () => { if (document.hidden && Module.calledRun) tendrilKeepFiles(); });
 
 var Module = {
     canvas: document.getElementById("canvas"),
-    arguments: [],
-    preRun: [() => {
-        FS.mkdirTree(kept);
-        FS.mount(IDBFS, {}, kept);
+    arguments: ["", ""],  // a file to open, and a lab
+    preRun: [async () => {
         addRunDependency("files");
-        FS.syncfs(true, async (error) => {
-            if (error) console.warn(`no settings are kept here: ${error}`);
-            try {
-                const scene = await sceneOfAddress();
-                if (scene) {
-                    FS.mkdirTree("/files");
-                    FS.writeFile("/files/link.json", scene);
-                    Module.arguments.push("/files/link.json");
-                }
-            } catch (broken) {
-                console.warn(`the address holds no scene: ${broken}`);
+        if (embedded) ENV.HOME = "";
+        try {
+            if (!embedded) await takeKeptFiles();
+        } catch (error) {
+            console.warn(`no settings are kept here: ${error}`);
+        }
+        try {
+            const file = await fileOfAddress();
+            if (file) {
+                FS.mkdirTree("/files");
+                FS.writeFile("/files/link", file);
+                Module.arguments[0] = "/files/link";
             }
-            removeRunDependency("files");
-        });
+        } catch (broken) {
+            console.warn(`the address holds no scene: ${broken}`);
+        }
+        Module.arguments[1] = /^#lab=(\w+)$/.exec(location.hash)?.[1] ?? "";
+        removeRunDependency("files");
     }],
     setStatus: (text) => { if (text) state.textContent = text; },
     onAbort: (why) => tendrilFailed(`Tendril stopped: ${why}. Reload the page; unsaved work is offered then.`),

@@ -6,7 +6,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/offscreen_window.hpp"
 
-#ifdef TENDRIL_HAS_EGL
+#if defined(TENDRIL_HAS_EGL) && !defined(__EMSCRIPTEN__)
 #define EGL_NO_X11  // keeps X11's macros out of this file
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -16,7 +16,7 @@
 
 namespace tendril::app {
 
-#ifdef TENDRIL_HAS_EGL
+#if defined(TENDRIL_HAS_EGL) && !defined(__EMSCRIPTEN__)
 namespace {
 
 /// The EGL functions used here, loaded at run time.

@@ -16,6 +16,9 @@ TEST(FoldedPanel, OneFoldsAutomaticallyIfTwoDoNotFit) {
     EXPECT_EQ(narrow.right.size().x, 12.0f) << "the strip that brings it back";
     settings.left_open = false;
     EXPECT_TRUE(lay_out({899, 640}, 1.0f, settings, 0.0f).right_open);
+    EXPECT_EQ(lay_out({390, 844}, 1.0f, settings, 0.0f).view.max, glm::vec2(390, 430)) << "above the panel";
+    settings.right_open = false;
+    EXPECT_EQ(lay_out({390, 844}, 1.0f, settings, 0.0f).right.size(), glm::vec2(366, 116)) << "the verdict";
 }
 
 TEST(FoldedPanel, OneFoldsAutomaticallyIfTextIsLarge) {
