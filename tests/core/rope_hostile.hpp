@@ -1,6 +1,7 @@
 // Random edits of rope worlds with hostile numbers: for tests, and for benchmarks of the worst case.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <iterator>
@@ -220,5 +221,15 @@ class HostileEditor {
     Random& random_;
     std::size_t particles_;
 };
+
+/// The most work of a substep: twice the bound of the passes, or the passes that always run.
+inline double allowed_work(const rope::World& world) {
+    const auto particles = static_cast<double>(world.size()),
+               links = static_cast<double>(world.state().links.size()),
+               colliders = static_cast<double>(world.state().colliders.size());
+    const double pass = links + colliders * (particles + 14.0 * links);
+    const double passes = std::max(static_cast<double>(rope::max_pass_work), rope::unbounded_passes * pass);
+    return 2.0 * passes + 256.0 * particles * colliders;
+}
 
 }  // namespace tendril::test
