@@ -56,8 +56,7 @@ TEST(RopeAir, ASailTakesItsCurve) {
 /// A flat sheet of even mass; each particle has the mass of its share of the triangles.
 World flat_sheet(int size, double density) {
     World world = world_with({.damping = 0.0f, .gusts = 0.0f, .still_air = true});
-    world.add_cloth(
-        {.corner = {0, 100, 0}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = size, .rows = size});
+    world.add_cloth(square_cloth({0, 100, 0}, {1, 0, 0}, {0, 0, 1}, size));
     rope::State state = world.state();
     const auto cells = static_cast<std::size_t>(size - 1), row = cells + 1;
     const double each = density / static_cast<double>(6 * cells * cells);

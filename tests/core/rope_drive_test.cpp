@@ -9,9 +9,7 @@ using glm::dvec3;
 
 std::string lay(World& world, bool cloth, dvec3 at) {
     const glm::vec3 from(at);
-    if (cloth)
-        return world.add_cloth(
-            "on it", {.corner = from, .along = {0.5f, 0, 0}, .down = {0, 0, 0.5f}, .columns = 8, .rows = 8});
+    if (cloth) return world.add_cloth("on it", square_cloth(from, {0.5f, 0, 0}, {0, 0, 0.5f}, 8));
     return world.add_rope("on it", {.from = from, .to = from + glm::vec3(0.5f, 0, 0), .segments = 8});
 }
 

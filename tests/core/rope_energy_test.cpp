@@ -115,11 +115,8 @@ TEST(RopeEnergyFree, MomentumIsConserved) {
                             down = glm::normalize(glm::cross(along, glm::vec3(0, 1, 0) + random.point(0.3f))),
                             middle = glm::vec3(0, 0.35f * static_cast<float>(b), 0) + random.point(0.1f);
             if (b < cloths)
-                world.add_cloth(names[b], {.corner = middle - 0.4f * (along + down),
-                                           .along = 0.8f * along,
-                                           .down = 0.8f * down,
-                                           .columns = 12,
-                                           .rows = 12});
+                world.add_cloth(names[b],
+                                square_cloth(middle - 0.4f * (along + down), 0.8f * along, 0.8f * down, 12));
             else
                 world.add_rope(names[b], {.from = middle - 0.5f * along,
                                           .to = middle + 0.5f * along,

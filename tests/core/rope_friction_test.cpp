@@ -137,11 +137,7 @@ TEST(RopeFriction, ABodyMayHaveItsOwnFriction) {
             world.add_rope(name, {.from = from, .to = from + along, .segments = 16});
         }
         for (const auto& [name, z] : {std::pair{"cloth slides", 2.0f}, {"cloth stays", 4.0f}})
-            world.add_cloth(name, {.corner = 0.01f * up + glm::vec3(0, 0, z),
-                                   .along = along,
-                                   .down = {0, 0, 1},
-                                   .columns = 6,
-                                   .rows = 6});
+            world.add_cloth(name, square_cloth(0.01f * up + glm::vec3(0, 0, z), along, {0, 0, 1}, 6));
         allow(world.set_friction(world.id("stays"), 0.6f));
         allow(world.set_friction(world.id("cloth stays"), 0.6f));
         const auto middle = [&](const char* name) { return world.position(world.particle(name, 8)); };
