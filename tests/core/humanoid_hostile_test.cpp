@@ -1,10 +1,12 @@
 // Every library function that takes a skeleton, map or pose, with unsuitable input: another character's map,
 // duplicate nodes, a bone above its parent; non-finite or enormous poses. Either it is refused and nothing
-// changes, or the output is finite and passes the input checks.
+// changes, or the output is finite and passes the input checks; bones keep their lengths, and hands and the
+// head allocate nothing.
 #include <cstring>
 #include <tendril/tendril.hpp>
 
 #include "humanoid_figure.hpp"
+#include "memory.hpp"
 #include "random.hpp"
 #include "tests/labels.hpp"
 #include "tests/says.hpp"
@@ -88,9 +90,28 @@ class HostileHumanoid : public testing::Test {
             if (random.chance(200)) local.translation = point(1.0, 3);
             if (random.chance(300)) local.scale = point(2.0, 3);
         }
+        if (!pose.empty() && random.chance(2)) pose[0].translation += point(1.0, 200);
         if (random.chance(20)) pose.resize(random.below(pose.size() + 2));
         return pose;
     }
+    Ground ground() {
+        switch (random.below(5)) {
+            case 0:
+                return *Ground::flat(between(-1.0, 1.0));
+            case 1:
+                return *Ground::slope(between(-1.2, 1.2));
+            case 2:
+                return *Ground::stairs(between(-0.5, 0.5), between(0.05, 0.5));
+            case 3: {
+                HeightField field{.x = -2.0, .z = -2.0, .cell = 0.1, .columns = 41, .heights = {}};
+                for (int i = 0; i < 41 * 41; ++i) field.heights.push_back(between(-0.3, 0.3));
+                return *Ground::terrain(field);
+            }
+            default:
+                return {};
+        }
+    }
+    double far() { return std::pow(10.0, between(-9.0, 8.0)); }
     double step_time() {
         constexpr double times[]{0.0, 1.0 / 60, 1.0 / 60, 1.0 / 60, 1e-300, 1e-12, 1e-6, 0.4, 1e6, 1e300};
         return random.chance(30) ? any() : times[random.below(std::size(times))];
@@ -100,10 +121,11 @@ class HostileHumanoid : public testing::Test {
 };
 
 TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
-    std::size_t refused = 0, taken = 0;
-    for (int round = rounds(400); round > 0; --round) {
-        const Skeleton body = skeleton();
-        const BoneMap map = map_of(body);
+    std::size_t refused = 0, taken = 0, steps[3]{};
+    const int all = rounds(1200);
+    for (int round = all; round > 0; --round) {
+        const Skeleton body = round % 2 == 0 ? skeleton() : make_figure({}, between(0.0, 7.0));
+        const BoneMap map = round % 2 == 0 ? map_of(body) : match_bones(body);
         Expected<Body> solver = Body::make(body, map, default_limits(body, map), default_capsules(body, map));
         const Expected<Feet> feet = Feet::make(body, map);
         const Expected<Hands> hands = Hands::make(body, map);
@@ -120,13 +142,13 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
         HandsState hands_state;
         LookAtState look_state;
         SpringChainState spring_state;
-        const Ground ground =
-            random.chance(2) ? *Ground::stairs(0.2, 0.3) : *Ground::flat(between(-1.0, 1.0));
         for (int frame = 0; frame < 12; ++frame) {
+            const Ground below = ground();
             const std::vector<rig::Transform> clip = pose_of(body);
             const double dt = step_time();
             const rig::Transform root{.translation = point(2.0, 100), .rotation = rotation(100)};
             std::vector<rig::Transform> pose = clip;
+            const auto node_of = [&](Bone bone) { return static_cast<std::size_t>(map[bone].node); };
             const auto holds = [&](const char* what, bool valid, bool state_stays) {
                 taken += valid;
                 if (!valid) {
@@ -134,8 +156,12 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
                     EXPECT_TRUE(state_stays) << what;
                 } else {
                     EXPECT_TRUE(is_fine(pose)) << what;
+                    for (std::size_t i = 0; i < pose.size(); ++i)
+                        EXPECT_NEAR(glm::length(pose[i].rotation), glm::length(clip[i].rotation), 1e-9)
+                            << what;
                 }
                 pose = clip;
+                return valid;
             };
             if (solver) {
                 std::vector<BodyTarget> targets;
@@ -162,38 +188,54 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
                 }
             }
             if (feet) {
-                FeetOptions options{.root = root, .root_velocity = point(1.0, 100)};
-                if (random.chance(10)) options.weight = any();
+                FeetOptions options{.weight = random.chance(10) ? any() : std::min(between(0.0, 2.0), 1.0),
+                                    .root = root,
+                                    .root_velocity = point(1.0, 100),
+                                    .max_turn = between(0.0, 1.48),
+                                    .max_slope = between(0.0, 1.48)};
                 const FeetState before = feet_state;
                 FeetJob job{.feet = &*feet, .pose = pose, .state = &many_state, .options = options};
                 many_state = feet_state;
-                step_many({&job, 1}, ground, dt);
+                step_many({&job, 1}, below, dt);
                 const std::vector<rig::Transform> many = std::exchange(pose, clip);
-                const FeetReport report = feet->step(pose, ground, dt, feet_state, options);
+                const FeetReport report = feet->step(pose, below, dt, feet_state, options);
                 EXPECT_TRUE(same_bits(many, pose) && many_state == feet_state);
                 EXPECT_TRUE(check(feet_state)) << check(feet_state).message();
                 for (const FootReport& foot : report.feet)
                     EXPECT_TRUE(is_fine(foot.heel) && is_fine(foot.toe));
                 EXPECT_TRUE(is_fine(report.base) && is_fine(report.drop));
-                holds("feet", report.accepted.ok(), feet_state == before);
+                for (std::size_t i = 0; report.accepted && i < pose.size(); ++i)
+                    EXPECT_TRUE(i == node_of(Bone::Hips) || pose[i].translation == clip[i].translation);
+                steps[0] += holds("feet", report.accepted.ok(), feet_state == before);
             }
             if (hands) {
                 const HandsState before = hands_state;
                 HandTargets targets;
-                for (HandTarget& each : targets) each = {point(2.0, 50), std::nullopt, number(0.0, 1.0)};
+                for (HandTarget& each : targets)
+                    each = {rotation() * glm::dvec3(far(), 0, 0), std::nullopt, number(0.0, 1.0)};
                 if (random.chance(2)) targets[0].rotation = rotation();
-                const HandsReport report = hands->step(pose, targets, dt, hands_state, {.root = root});
+                if (random.chance(5) && pose.size() == body.size()) {
+                    std::vector<Placement> placed(body.size());
+                    place(body, pose, placed);
+                    targets[0].position = placed[node_of(Bone::LeftUpperArm)].position;
+                }
+                HandsReport report;
+                const HandsOptions options{.root = root, .view = random.chance(2) ? 3.14 : 1.0};
+                without_memory([&] { report = hands->step(pose, targets, dt, hands_state, options); });
                 for (const HandReport& hand : report.hands)
                     EXPECT_TRUE(is_fine(hand.residual) && is_fine(hand.position) && is_fine(hand.weight));
-                holds("hands", report.accepted.ok(), hands_state == before);
+                steps[1] += holds("hands", report.accepted.ok(), hands_state == before);
             }
             if (look_at) {
                 const LookAtState before = look_state;
                 LookAtOptions options;
-                options.target = point(3.0, 50), options.root = root;
-                const LookAtReport report = look_at->step(pose, options, dt, look_state);
+                options.target = random.chance(9) ? glm::dvec3(0, 1.6, 0) : far() * point(1.0, 50);
+                options.root = root;
+                if (random.chance(2)) options.view = 3.14;
+                LookAtReport report;
+                without_memory([&] { report = look_at->step(pose, options, dt, look_state); });
                 EXPECT_TRUE(is_fine(report.weight) && is_fine(report.left) && is_fine(look_state.gaze));
-                holds("look at", report.accepted.ok(), look_state == before);
+                steps[2] += holds("look at", report.accepted.ok(), look_state == before);
             }
             if (spring) {
                 const SpringChainState before = spring_state;
@@ -210,6 +252,7 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
     }
     EXPECT_GT(refused, 0u);
     EXPECT_GT(taken, 0u);
+    for (const std::size_t each : steps) EXPECT_GT(each, static_cast<std::size_t>(4 * all));
 }
 
 TEST_F(HostileHumanoid, AMapThatDoesNotFitCountsAsEmpty) {

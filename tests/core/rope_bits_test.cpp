@@ -20,12 +20,7 @@ World mixed_scene(const rope::Settings& settings, float tear = 0.0f) {
                         .length = 1.3f,
                         .pin_start = !random.chance(4)});
     }
-    world.add_rope("stretched", {.from = {2, 1, 0},
-                                 .to = {4, 1, 0},
-                                 .segments = 9,
-                                 .length = 1.5f,
-                                 .pin_start = true,
-                                 .pin_end = true});
+    world.add_rope("stretched", pinned_rope({2, 1, 0}, {4, 1, 0}, 9, 1.5f));
     world.add_cloth("cloth", {.corner = {0, 2, 0.5f},
                               .columns = 7,
                               .rows = 6,

@@ -97,12 +97,7 @@ TEST(RopeCatenary, AnySpanAndLength) {
 TEST(RopeCatenary, WithoutASpanItHangsStraightDown) {
     for (const float lower : {0.0f, 0.5f}) {
         World world = world_with({.damping = 1.0f});
-        world.add_rope("rope", {.from = {0, 0, 0},
-                                .to = {0, -lower, 0},
-                                .segments = 40,
-                                .length = 2.0f,
-                                .pin_start = true,
-                                .pin_end = true});
+        world.add_rope("rope", pinned_rope({0, 0, 0}, {0, -lower, 0}, 40, 2.0f));
         run(world, 10.0);
         EXPECT_NEAR(lowest(world), -0.5 * (2.0 + lower), 0.05);  // to within a segment
         EXPECT_LE(stretch(world), 1e-4);
@@ -133,12 +128,7 @@ TEST(RopeCatenary, PlainRelaxationSagsByItsKnownAmount) {
 TEST(RopeCatenary, AThousandKilometresOutItHangsTheSame) {
     World world = world_with({.damping = 1.0f});
     const float far = 1e6f - 8.0f;
-    world.add_rope("rope", {.from = {far, 0, -far},
-                            .to = {far + 1.0f, 0, -far},
-                            .segments = 64,
-                            .length = 1.5f,
-                            .pin_start = true,
-                            .pin_end = true});
+    world.add_rope("rope", pinned_rope({far, 0, -far}, {far + 1.0f, 0, -far}, 64, 1.5f));
     run(world, 15.0);
     EXPECT_LE(std::abs(-lowest(world) / catenary_sag(1.0, 1.5) - 1.0), 0.002);
     EXPECT_LE(stretch(world), 1e-6);

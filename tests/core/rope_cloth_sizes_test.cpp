@@ -10,12 +10,7 @@ using rope::ClothShape;
 
 /// A horizontal cloth at the height of the origin, 1 m along each side.
 ClothShape flat(int side, ClothShape::Pins pins) {
-    return {.corner = {0, 0, 0},
-            .along = {1, 0, 0},
-            .down = {0, 0, 1},
-            .columns = side,
-            .rows = side,
-            .pins = pins};
+    return square_cloth({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, side, pins);
 }
 
 /// The maximum stretch over all frames.

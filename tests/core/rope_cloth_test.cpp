@@ -48,8 +48,7 @@ TEST(RopeCloth, HangsAndComesToRest) {
 TEST(RopeCloth, LiesOnABall) {
     World world = world_with({.damping = 1.0f});
     world.add_collider("ball", rope::Sphere{{0.5f, -0.5f, 0.5f}, 0.3f});
-    world.add_cloth("cloth",
-                    {.corner = {0, 0, 0}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = 16, .rows = 16});
+    world.add_cloth("cloth", square_cloth({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 16));
     run(world, 3.0);
     double highest = -1e9, nearest = 1e9;
     for (const glm::dvec3& p : world.state().position) {
@@ -90,12 +89,7 @@ TEST(RopeCloth, TearsOnlyIfItMay) {
     for (const float tear : {0.0f, 0.01f}) {
         World world;
         world.add_cloth("cloth", {.columns = 6, .rows = 6, .tear = tear, .pins = ClothShape::Pins::Corners});
-        world.add_rope("rope", {.from = {3, 0, 0},
-                                .to = {5, 0, 0},
-                                .segments = 6,
-                                .length = 1.0f,
-                                .pin_start = true,
-                                .pin_end = true});
+        world.add_rope("rope", pinned_rope({3, 0, 0}, {5, 0, 0}, 6, 1.0f));
         const std::size_t links = world.state().links.size();
         world.pin(world.particle("cloth", 30), {-3, -3, 0}, 0.5);
         run(world, 1.0);

@@ -24,13 +24,7 @@ const char* const on_top = "rope 2";
 /// A rope with weights at its ends, dropped across another one.
 World crossed(int segments, double weight = 1.0) {
     World world;
-    world.add_rope(below, {.from = {-0.5f, 1, 0},
-                           .to = {0.5f, 1, 0},
-                           .segments = segments,
-                           .length = 1.05f,
-                           .radius = radius,
-                           .pin_start = true,
-                           .pin_end = true});
+    world.add_rope(below, pinned_rope({-0.5f, 1, 0}, {0.5f, 1, 0}, segments, 1.05f, radius));
     world.add_rope(on_top, {.from = {0.003f, 1.05f, -0.4f},
                             .to = {0, 1.05f, 0.4f},
                             .segments = segments,
@@ -128,13 +122,8 @@ World knotted(int segments, float thickness) {
     for (std::size_t i = 0; i + 1 < path.size(); ++i) length += glm::length(path[i + 1] - path[i]);
 
     World world;
-    world.add_rope("rope", {.from = {0, 0, 0},
-                            .to = {1, 0, 0},
-                            .segments = segments,
-                            .length = static_cast<float>(length),
-                            .radius = thickness,
-                            .pin_start = true,
-                            .pin_end = true});
+    world.add_rope("rope",
+                   pinned_rope({0, 0, 0}, {1, 0, 0}, segments, static_cast<float>(length), thickness));
     rope::State state = world.state();
     state.settings.gravity = {0, 0, 0};
     double along = 0.0;
@@ -221,13 +210,7 @@ World groups() {
     for (int g = 0; g < 4; ++g) {
         const auto x = 3.0f * static_cast<float>(g);
         const std::string n = std::to_string(g);
-        world.add_rope("a" + n, {.from = {x - 0.5f, 1, 0},
-                                 .to = {x + 0.5f, 1, 0},
-                                 .segments = 300,
-                                 .length = 1.1f,
-                                 .radius = radius,
-                                 .pin_start = true,
-                                 .pin_end = true});
+        world.add_rope("a" + n, pinned_rope({x - 0.5f, 1, 0}, {x + 0.5f, 1, 0}, 300, 1.1f, radius));
         world.add_rope(
             "b" + n,
             {.from = {x, 1.1f, -0.4f}, .to = {x + 0.01f, 1.1f, 0.4f}, .segments = 300, .radius = radius});
@@ -412,12 +395,7 @@ TEST(RopeCollision, ContactsFollowResampledRopes) {
     // The first rope takes no part, and its particles shift the indices of the others.
     World world;
     world.add_rope("first", {.from = {5, 0, 0}, .to = {6, 0, 0}, .segments = 8});
-    world.add_rope(below, {.from = {-0.5f, 1, 0},
-                           .to = {0.5f, 1, 0},
-                           .segments = 16,
-                           .radius = radius,
-                           .pin_start = true,
-                           .pin_end = true});
+    world.add_rope(below, pinned_rope({-0.5f, 1, 0}, {0.5f, 1, 0}, 16, std::nullopt, radius));
     world.add_rope(
         on_top, {.from = {0.003f, 1.05f, -0.4f}, .to = {0, 1.05f, 0.4f}, .segments = 16, .radius = radius});
     collide(world, below, on_top);
@@ -441,12 +419,7 @@ TEST(RopeCollision, ContactsFollowResampledRopes) {
 TEST(RopeCollision, ABodyBetweenTwoOthersInTheListChangesNothing) {
     const auto fallen = [](bool between) {
         World world;
-        world.add_rope(below, {.from = {-0.5f, 1, 0},
-                               .to = {0.5f, 1, 0},
-                               .segments = 24,
-                               .radius = radius,
-                               .pin_start = true,
-                               .pin_end = true});
+        world.add_rope(below, pinned_rope({-0.5f, 1, 0}, {0.5f, 1, 0}, 24, std::nullopt, radius));
         if (between) world.add_rope("between", {.from = {5, 0, 0}, .to = {6, 0, 0}, .segments = 5});
         world.add_rope(
             on_top,

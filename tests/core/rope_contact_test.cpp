@@ -112,9 +112,7 @@ TEST(RopeContact, AFastSphereCarriesATautRope) {
     for (const Solver solver : all_solvers)
         for (const float speed : {0.05f, 0.25f, 0.5f}) {
             World world = world_with({.solver = solver});
-            world.add_rope(
-                "rope",
-                {.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 32, .pin_start = true, .pin_end = true});
+            world.add_rope("rope", pinned_rope({-1, 0, 0}, {1, 0, 0}, 32));
             world.add_collider("ball", Sphere{{0, 0, 2.0f}, radius});
             const double h = world.settings().substep;
             const int steps = static_cast<int>(std::lround(2.6 / static_cast<double>(speed * radius)));
@@ -149,12 +147,7 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
         for (const float radius : {0.1f, 0.04f, 0.0f})
             for (const float aside : {0.0f, 0.1f, 0.2f}) {
                 World world = world_with({.solver = solver});
-                world.add_rope("rope", {.from = {-1, 0, 0},
-                                        .to = {1, 0, 0},
-                                        .segments = 4,
-                                        .length = 2.2f,
-                                        .pin_start = true,
-                                        .pin_end = true});
+                world.add_rope("rope", pinned_rope({-1, 0, 0}, {1, 0, 0}, 4, 2.2f));
                 run(world, 0.5);
                 const float low = static_cast<float>(lowest(world));
                 // Up from below, between particles 2 and 3 (or onto the middle).

@@ -96,8 +96,7 @@ TEST(RopeEdit, RemovingRenumbers) {
 /// A rope moves as if the removed ropes had never existed; only its slot differs.
 TEST(RopeEdit, RemovedBodiesLeaveNoTrace) {
     World with = three_ropes(), without;
-    without.add_rope("c",
-                     {.from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
+    without.add_rope("c", pinned_rope({2, 0, 0}, {2, 1, 0}, 4));
     with.remove("a"), with.remove("b");
     run(with, 1.0), run(without, 1.0);
     State left = with.state();

@@ -26,8 +26,7 @@ rope::World edited_scene() {
                              .rows = 7,
                              .pins = rope::ClothShape::Pins::Corners});
     world.add_hair("hair", {.roots = {{{3, 2, 0}, {0, -1, 0}}, {{3, 2, 0.2f}, {0, -1, 0}}}, .segments = 8});
-    world.add_rope("above",
-                   {.from = {0, 2, 4}, .to = {1, 2, 4}, .segments = 9, .pin_start = true, .pin_end = true});
+    world.add_rope("above", pinned_rope({0, 2, 4}, {1, 2, 4}, 9));
     world.add_cloth(
         "sewn", {.corner = {0, 2, 4}, .along = {1, 0, 0}, .down = {0, -0.8f, 0.1f}, .columns = 7, .rows = 6});
     allowed(world.core().tie(world.particle("above", 0), world.particle("sewn", 0)));

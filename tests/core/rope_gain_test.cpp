@@ -262,12 +262,8 @@ World lying_on_the_ground(Random& random, Solver solver, Subject kind) {
     } else {
         const int side = 6 + static_cast<int>(random.below(10));
         world.add_cloth(
-            "it", {.corner = {-0.5f, 0.05f, -0.5f},
-                   .along = {1, 0, 0},
-                   .down = {0, 0, 1},
-                   .columns = side,
-                   .rows = side,
-                   .pins = kind == Subject::Cloth ? ClothShape::Pins::None : ClothShape::Pins::Corners});
+            "it", square_cloth({-0.5f, 0.05f, -0.5f}, {1, 0, 0}, {0, 0, 1}, side,
+                               kind == Subject::Cloth ? ClothShape::Pins::None : ClothShape::Pins::Corners));
     }
     run(world, 0.5);
     return world;

@@ -1,6 +1,7 @@
 // Random edits of rope worlds with hostile numbers: for tests, and for benchmarks of the worst case.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <iterator>

@@ -33,9 +33,7 @@ World resting_on(int kind, Solver solver, bool box) {
     else
         world.add_collider("ground", rope::Plane{});
     if (kind == 1 || kind == 3)
-        world.add_cloth(
-            "cloth",
-            {.corner = {0, 0.05f, 0}, .along = {0.5f, 0, 0}, .down = {0, 0, 0.5f}, .columns = 8, .rows = 8});
+        world.add_cloth("cloth", square_cloth({0, 0.05f, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, 8));
     else
         world.add_rope(
             "a",

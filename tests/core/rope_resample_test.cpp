@@ -86,8 +86,7 @@ TEST(RopeResample, SubdividingAndMergingRestoresIt) {
 TEST(RopeResample, PinsAndTiesStayOnTheirPoints) {
     World world;
     world.add_rope("a", {.segments = 12});
-    world.add_rope("b",
-                   {.from = {0, 1, 0}, .to = {1, 1, 0}, .segments = 12, .pin_start = true, .pin_end = true});
+    world.add_rope("b", pinned_rope({0, 1, 0}, {1, 1, 0}, 12));
     world.pin(world.particle("a", 5), {0.4f, 0, 0});
     const rope::TieId tie = allowed(world.core().tie(world.particle("a", 7), world.particle("b", 3)));
     run(world, 0.5);

@@ -27,13 +27,7 @@ double deepest_inside(const World& world) {
 /// Four metres of rope between points three metres apart, with balls that rise from below.
 World hung_over(int segments, int balls, float radius) {
     World world;
-    world.add_rope("rope", {.from = {0, 0, 0},
-                            .to = {3, 0, 0},
-                            .segments = segments,
-                            .length = 4.0f,
-                            .radius = 0.01f,
-                            .pin_start = true,
-                            .pin_end = true});
+    world.add_rope("rope", pinned_rope({0, 0, 0}, {3, 0, 0}, segments, 4.0f, 0.01f));
     for (int i = 0; i < balls; ++i) {
         const float x = 3.0f * (static_cast<float>(i) + 0.5f) / static_cast<float>(balls);
         world.add_collider("ball " + std::to_string(i), Sphere{{x, -2.2f, 0}, radius});
@@ -98,13 +92,7 @@ TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
         for (const float friction : {0.0f, 0.5f, 1.0f}) {
             if (segments > 256 && !is_thorough()) continue;
             World world = world_with({.friction = friction});
-            world.add_rope("rope", {.from = {-0.5f, 0, 0.01f},
-                                    .to = {0.5f, 0, -0.01f},
-                                    .segments = segments,
-                                    .length = 1.2f,
-                                    .radius = 0.01f,
-                                    .pin_start = true,
-                                    .pin_end = true});
+            world.add_rope("rope", pinned_rope({-0.5f, 0, 0.01f}, {0.5f, 0, -0.01f}, segments, 1.2f, 0.01f));
             world.add_collider("bar", Capsule{{0, -1, -1}, {0, -1, 1}, 0.02f});
             run(world, 0.25);
             world.move_collider("bar", {0, 0.29f, 0}, 2.0);
@@ -153,8 +141,7 @@ TEST(RopeResolution, ABeamThatIsNotTouchedChangesNothing) {
 /// A ball drags a rope that is too short: it stretches smoothly, and recovers after the ball has left.
 TEST(RopeResolution, StretchesIfItMustAndRecovers) {
     World world;
-    world.add_rope("rope",
-                   {.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 64, .pin_start = true, .pin_end = true});
+    world.add_rope("rope", pinned_rope({-1, 0, 0}, {1, 0, 0}, 64));
     world.add_collider("ball", Sphere{{0, 0, 0.4f}, 0.3f});
     world.move_collider("ball", {0, 0, -0.4f}, 1.0);
     double before = 0.0;

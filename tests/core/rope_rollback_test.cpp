@@ -1,5 +1,5 @@
 // A copy of a world is equivalent: after any edits with any numbers, a copy and a world made from its state
-// continue bitwise equal. Rollback and scene files depend on this.
+// continue bitwise equal. Rollback and scene files depend on this. Work is bounded whatever was edited.
 #include <cmath>
 
 #include "rope_hostile.hpp"

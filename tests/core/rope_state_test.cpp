@@ -144,9 +144,7 @@ TEST(RopeState, ItsOwnStateIsAccepted) {
     World heavy;
     heavy.add_rope("rope", {.to = {1e6f, 0, 0}, .segments = 4, .density = 1e6f});
     World wide;
-    wide.add_cloth(
-        "cloth",
-        {.corner = {-9e8f, 0, 0}, .along = {9e8f, 0, 0}, .down = {0, 1e8f, 0}, .columns = 3, .rows = 3});
+    wide.add_cloth("cloth", square_cloth({-9e8f, 0, 0}, {9e8f, 0, 0}, {0, 1e8f, 0}, 3));
     for (World* world : {&tight, &heavy, &wide}) {
         for (int i = 0; i < 30; ++i) world->advance(0.1);
         EXPECT_TRUE(all_finite(*world));

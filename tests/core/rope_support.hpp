@@ -50,14 +50,21 @@ void throw_all(World& world, Velocity velocity) {
     world = World(state);
 }
 
+/// A rope pinned at both ends.
+inline rope::RopeShape pinned_rope(glm::vec3 from, glm::vec3 to, int segments,
+                                   std::optional<float> length = {}, float radius = 0.02f) {
+    rope::RopeShape made{.from = from, .to = to, .segments = segments, .length = length, .radius = radius};
+    made.pin_start = made.pin_end = true;
+    return made;
+}
+inline rope::ClothShape square_cloth(glm::vec3 corner, glm::vec3 along, glm::vec3 down, int side,
+                                     rope::ClothShape::Pins pins = rope::ClothShape::Pins::None) {
+    return {.corner = corner, .along = along, .down = down, .columns = side, .rows = side, .pins = pins};
+}
+
 /// Hangs a rope between the origin and (span, 0, 0).
 inline void hang_between(World& world, float span, float length, int segments) {
-    world.add_rope("rope", {.from = {0, 0, 0},
-                            .to = {span, 0, 0},
-                            .segments = segments,
-                            .length = length,
-                            .pin_start = true,
-                            .pin_end = true});
+    world.add_rope("rope", pinned_rope({0, 0, 0}, {span, 0, 0}, segments, length));
 }
 
 /// The weight of all bodies, newtons.

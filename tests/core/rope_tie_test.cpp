@@ -67,15 +67,8 @@ TEST(RopeTie, KeepsMomentumOfFreeBodies) {
 TEST(RopeTie, TiesCarryTheWeightOfACloth) {
     for (const int side : {6, 17, 28}) {
         World world = world_with({.damping = 6.0f});
-        world.add_rope("line", {.from = {0, 2, 0},
-                                .to = {1, 2, 0},
-                                .segments = side - 1,
-                                .length = 1.05f,
-                                .pin_start = true,
-                                .pin_end = true});
-        world.add_cloth(
-            "sheet",
-            {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = side, .rows = side});
+        world.add_rope("line", pinned_rope({0, 2, 0}, {1, 2, 0}, side - 1, 1.05f));
+        world.add_cloth("sheet", square_cloth({0, 1.95f, 0}, {1, 0, 0}, {0, -1, 0}, side));
         std::vector<rope::TieId> ties;
         for (int i = 0; i < side; i += 2)
             ties.push_back(tie(world, "line", i, "sheet", i, {.length = 0.05f}));
@@ -117,9 +110,7 @@ TEST(RopeTie, KeepsMomentumOfCloths) {
 /// A cloth with a rope at a corner, thrown without gravity.
 TEST(RopeTie, KeepsTheSpinOfACloth) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
-    world.add_cloth(
-        "cloth",
-        {.corner = {-0.5f, 0, -0.5f}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = 20, .rows = 20});
+    world.add_cloth("cloth", square_cloth({-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1}, 20));
     world.add_rope("rope", {.from = {0.5f, 0, 0.5f}, .to = {0.8f, 0, 0.8f}, .segments = 8});
     tie(world, "cloth", -1, "rope", 0);
     throw_all(world, [at = world.state().position](std::size_t i) {
@@ -134,16 +125,9 @@ TEST(RopeTie, KeepsTheSpinOfACloth) {
 /// A cloth hung on a line and cut in two: each piece keeps its ties, and these hold its weight.
 TEST(RopeTie, PiecesOfACutClothKeepTheirTies) {
     World whole = world_with({.damping = 3.0f});
-    whole.add_rope("line", {.from = {0, 2, 0},
-                            .to = {1, 2, 0},
-                            .segments = 12,
-                            .length = 1.05f,
-                            .pin_start = true,
-                            .pin_end = true});
+    whole.add_rope("line", pinned_rope({0, 2, 0}, {1, 2, 0}, 12, 1.05f));
     whole.add_rope("weight", {.from = {0.5f, 1, 0}, .to = {0.5f, 0.5f, 0}, .segments = 6});
-    whole.add_cloth(
-        "cloth",
-        {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = 13, .rows = 13});
+    whole.add_cloth("cloth", square_cloth({0, 1.95f, 0}, {1, 0, 0}, {0, -1, 0}, 13));
     for (const int i : {0, 4, 8, 12}) tie(whole, "line", i, "cloth", i, {.length = 0.05f});
     tie(whole, "cloth", 12 * 13 + 6, "weight", 0, {.length = 0.05f});
     const rope::ClothLine across[] = {{{-0.5f, 4.5f}, {6, 7.5f}, {12.5f, 4.5f}}};
@@ -187,15 +171,8 @@ TEST(RopeTie, TearsAtItsStrength) {
 /// A cloth sewn to a slack rope by its first row, in gusts.
 TEST(RopeTie, ClothStaysOnItsRope) {
     World world = world_with({.damping = 0.2f, .wind = {0, 0, 6}});
-    world.add_rope("line", {.from = {-0.7f, 2, 0},
-                            .to = {0.7f, 2, 0},
-                            .segments = 42,
-                            .length = 1.5f,
-                            .pin_start = true,
-                            .pin_end = true});
-    world.add_cloth(
-        "sheet",
-        {.corner = {-0.5f, 1.7f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = 15, .rows = 15});
+    world.add_rope("line", pinned_rope({-0.7f, 2, 0}, {0.7f, 2, 0}, 42, 1.5f));
+    world.add_cloth("sheet", square_cloth({-0.5f, 1.7f, 0}, {1, 0, 0}, {0, -1, 0}, 15));
     std::vector<rope::TieId> ties;
     for (int i = 0; i < 15; i += 2) ties.push_back(tie(world, "line", 7 + 2 * i, "sheet", i));
     run(world, 1.0);
@@ -324,8 +301,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RopeTieScenes, testing::Range<std::uint64_t>(0, 
 TEST(RopeTie, StaysOnItsParticleThroughEdits) {
     World world;
     world.add_rope("first", {.from = {0, 3, 0}, .to = {1, 3, 0}, .segments = 4});
-    world.add_rope("line",
-                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 10, .pin_start = true, .pin_end = true});
+    world.add_rope("line", pinned_rope({0, 2, 0}, {1, 2, 0}, 10));
     world.add_rope("tail", {.from = {0.8f, 2, 0}, .to = {0.8f, 1, 0}, .segments = 8});
     const rope::TieId knot = tie(world, "line", 8, "tail", 0), other = tie(world, "first", 0, "line", 1);
     world.cut("line", 4);

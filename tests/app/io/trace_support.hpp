@@ -306,19 +306,9 @@ inline constexpr Space spaces[]{{"z", "left", "cm", 100.0},  {"y", "left", "m", 
                                 {"y", "left", "cm", 100.0},  {"z", "left", "m", 1.0},
                                 {"z", "right", "cm", 100.0}, {"y", "right", "mm", 1000.0}};
 
-enum class Format {
-    JsonLines,
-    BareJsonLines,
-    Csv,
-    Semicolons,
-    Tabs,
-    Unreal,
-    Unity,
-    Godot,
-    Blender,
-    JsonList
-};
-inline constexpr int formats = 10;
+/// Those of engines are in trace_makers_test.cpp.
+enum class Format { JsonLines, BareJsonLines, Csv, Semicolons, Tabs, JsonList };
+inline constexpr int formats = 6;
 
 inline std::string number_text(double value, int decimals) {
     if (std::isnan(value)) return "nan";
@@ -331,11 +321,10 @@ inline std::string number_text(double value, int decimals) {
 inline std::string written(const MadeTrace& trace, const Space& space, Format format, bool rounded = false) {
     // A log has few digits, but enough.
     const int decimals = (space.scale == 1.0 ? 5 : 3) - (rounded ? space.scale == 1000.0 ? 3 : 2 : 0);
-    const auto points = [&](const glm::dvec3& p, const char* open, const char* between, const char* close,
-                            const char* suffix = "") {
+    const auto points = [&](const glm::dvec3& p, const char* open, const char* between, const char* close) {
         const glm::dvec3 q = space.of(p);
-        return open + number_text(q.x, decimals) + suffix + between + number_text(q.y, decimals) + suffix +
-               between + number_text(q.z, decimals) + suffix + close;
+        return open + number_text(q.x, decimals) + between + number_text(q.y, decimals) + between +
+               number_text(q.z, decimals) + close;
     };
     std::string text;
     const auto array = [&](const glm::dvec3& p) { return points(p, "[", ", ", "]"); };
@@ -368,14 +357,6 @@ inline std::string written(const MadeTrace& trace, const Space& space, Format fo
     for (std::size_t i = 0; i < trace.frames.size(); ++i) {
         const MadeFrame& frame = trace.frames[i];
         const std::string between(1, separator);
-        const auto named = [&](const char* open, const char* middle, const char* close,
-                               const char* suffix = "") {
-            std::string line = "LogIK: [" + std::to_string(i) + "] arm: ";
-            for (const auto& joint : frame.joints) line += points(joint, open, middle, close, suffix) + " ";
-            line += "target=" + points(frame.target, open, middle, close, suffix);
-            if (frame.pole) line += " pole=" + points(*frame.pole, open, middle, close, suffix);
-            return line + " (done)\n";
-        };
         switch (format) {
             case Format::JsonLines:
             case Format::BareJsonLines:
@@ -383,28 +364,6 @@ inline std::string written(const MadeTrace& trace, const Space& space, Format fo
                 break;
             case Format::JsonList:
                 text += object(frame, i) + (i + 1 < trace.frames.size() ? ",\n" : "\n]\n");
-                break;
-            case Format::Unreal: {
-                const auto fields = [&](const glm::dvec3& p) {
-                    const glm::dvec3 q = space.of(p);
-                    return "(X=" + number_text(q.x, decimals) + " Y=" + number_text(q.y, decimals) +
-                           " Z=" + number_text(q.z, decimals) + ")";
-                };
-                text += "[2026.01.02-10.00.00:000][" + std::to_string(i) + "]LogTemp: Warning: joints ";
-                for (const auto& joint : frame.joints) text += fields(joint) + " ";
-                text += "Target " + fields(frame.target);
-                if (frame.pole) text += ", PoleTarget " + fields(*frame.pole);
-                text += "\n";
-                break;
-            }
-            case Format::Unity:
-                text += named("new Vector3(", ", ", ")", "f");
-                break;
-            case Format::Godot:
-                text += named("Vector3(", ", ", ")");
-                break;
-            case Format::Blender:
-                text += named("<Vector (", ", ", ")>");
                 break;
             default:
                 text += number_text(static_cast<double>(i) / 60.0, 6);

@@ -16,12 +16,8 @@ namespace {
 
 using test::made::Format, test::made::MadeTrace, test::made::Plant, test::made::Space, test::made::TraceMaker;
 
-/// The conventions of a format's engine; for other formats chosen by the seed.
-const Space& space_for(Format format, unsigned seed) {
-    const bool of_engine = format >= Format::Unreal && format <= Format::Blender;
-    return test::made::spaces[of_engine
-                                  ? static_cast<unsigned>(format) - static_cast<unsigned>(Format::Unreal)
-                                  : seed % std::size(test::made::spaces)];
+const Space& space_for(unsigned seed) {
+    return test::made::spaces[seed % std::size(test::made::spaces)];
 }
 
 TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
@@ -30,7 +26,7 @@ TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
         auto format = static_cast<Format>(seed / test::made::plants % test::made::formats);
         if (plant == Plant::Limit) format = seed % 2 == 0 ? Format::JsonLines : Format::JsonList;
         const MadeTrace made = TraceMaker(seed).make(plant);
-        const ReadTrace found = read_trace(test::made::written(made, space_for(format, seed), format));
+        const ReadTrace found = read_trace(test::made::written(made, space_for(seed), format));
         const auto same = [&](const TracedIncident& each) {
             const int joint = each.joint == ik::no_joint ? -1 : static_cast<int>(each.joint);
             const std::string cause = each.cause;
@@ -169,8 +165,7 @@ TEST(Trace, NothingIsFoundInCleanTraces) {
         const auto format = static_cast<Format>(seed % test::made::formats);
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
         const bool rounded = seed % 3 == 0;
-        const ReadTrace found =
-            read_trace(test::made::written(made, space_for(format, seed / 10), format, rounded));
+        const ReadTrace found = read_trace(test::made::written(made, space_for(seed / 10), format, rounded));
         EXPECT_EQ(found.text(), "") << "seed " << seed;
         EXPECT_EQ(found.notes.size(), 0u);
     }
@@ -203,7 +198,7 @@ TEST(Trace, ConventionsAreGuessedOrNotSure) {
         const auto format = static_cast<Format>(seed % test::made::formats);
         if (format == Format::JsonLines || format == Format::JsonList) continue;  // they say it
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
-        const Space& space = space_for(format, seed / 10);
+        const Space& space = space_for(seed / 10);
         const Conventions guess = read_trace(test::made::written(made, space, format)).conventions;
         const auto judge = [&](bool is_sure, const std::string& name, const char* is) {
             if (!is_sure) return;

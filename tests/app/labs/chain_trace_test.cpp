@@ -254,7 +254,7 @@ TEST_F(ChainTrace, ALongTraceIsShownAroundItsFirstIncidentOrFromAFrame) {
 
 TEST_F(ChainTrace, PastedTextIsReadAsATraceIfItIsOne) {
     const MadeTrace made = test::made::TraceMaker(8).make(Plant::None);
-    const std::string text = test::made::written(made, test::made::spaces[1], Format::Unity);
+    const std::string text = test::made::written(made, test::made::spaces[1], Format::BareJsonLines);
     const TakenText taken = ChainLab().takes_text(text);
     ASSERT_TRUE(taken.command);
     EXPECT_EQ(taken.command->name, "chain.trace");
