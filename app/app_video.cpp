@@ -62,8 +62,7 @@ void App::begin_video(const VideoRequest& wanted) {
     if (const glm::ivec2 size = view.size; video_kind(wanted.path)->even && size % 2 != glm::ivec2(0))
         view = picture_view(size - size % 2);
     try {
-        // Use the view's size in window coordinates, which a recording reproduces, so that frames are drawn
-        // at the same ticks.
+        // In window coordinates, which a recording reproduces, so that frames are drawn at the same ticks.
         const glm::ivec2 counted =
             wanted.size.x > 0 && wanted.size.y > 0 ? wanted.size : glm::ivec2(layout_.view.size());
         video_ =

@@ -125,8 +125,7 @@ void LiveLoop::sample(std::vector<Event> events) {
     }
 }
 
-/// A paste from the menu or the palette is recorded as Ctrl+V. While a script plays, the script supplies the
-/// text.
+/// A paste from the menu or the palette is recorded as Ctrl+V. While a script plays, it supplies the text.
 void LiveLoop::paste(const Player& player) {
     if (!std::exchange(app_.workspace().ui.pastes, false) || !player.done()) return;
     queue_.push_back(KeyChange{Key::Ctrl, true});
@@ -176,7 +175,9 @@ void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     // Accumulate no time while idle, or the first event afterwards would trigger a burst of ticks.
     const bool resting = queue_.empty() && player.done() && !app_.needs_ticks();
     note_pace(elapsed, resting ? 0.0 : std::clamp(credit_ + elapsed - max_stall, 0.0, elapsed));
-    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_stall);
+    // Each tick draws frames of a video: a burst of them would keep progress and Cancel from being drawn.
+    const double most = app_.workspace().ui.filming ? tick_seconds : max_stall;
+    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, most);
     // A recording being replayed has its own VideoEnd.
     const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };
     if (app_.video_ended() && (player.done() || !app_.replays()) && std::ranges::none_of(queue_, is_end))

@@ -29,8 +29,7 @@ struct SessionOptions {
 };
 
 /// Returns 0 on success; 1 if a script's expectation failed or one of its commands was refused; 2 if
-/// something could not be read, written or opened, or does not exist. Errors are printed to stderr, in one
-/// line.
+/// something could not be read, written or opened, or does not exist. Errors go to stderr, in one line.
 int run_session(const SessionOptions& options);
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the session cleanly, with all outputs written.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 
 #include "app/view/picture.hpp"
 
@@ -84,19 +83,23 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
     if (text_) find_room();
 }
 
+/// Shows a frame; false if it is the one before.
+static bool show(const VideoRequest& wanted, Workspace& workspace, int frame) {
+    if (wanted.show) return wanted.show(workspace, frame);
+    workspace.go_to_moment(static_cast<std::uint64_t>(wanted.from - frame * wanted.every));
+    return true;
+}
+
 /// Finds a corner for the legend that nothing moves into later.
 void VideoTake::find_room() {
     constexpr int max_looks = 16;
     Workspace ahead = workspace_;
-    std::function<bool(Workspace&, int)> show = wanted_.show;
+    const VideoRequest again = wanted_;  // with a state of its own
     const int frames = wanted_.frames(), looks = std::min(frames, max_looks);
     const Palette& colours = palette(workspace_.settings.theme);
     for (int i = 0; i < looks; ++i) {
         const int frame = looks > 1 ? i * (frames - 1) / (looks - 1) : 0;
-        if (show)
-            show(ahead, frame);
-        else
-            ahead.go_to_moment(static_cast<std::uint64_t>(wanted_.from - frame * wanted_.every));
+        show(again, ahead, frame);
         text_->look_at(drawn_panes(ahead, lab_, view_, wanted_.handles, colours), ahead.camera,
                        drawn_legend(ahead, lab_, wanted_.handles));
     }
@@ -104,12 +107,7 @@ void VideoTake::find_room() {
 
 void VideoTake::work() {
     for (int i = frames_a_tick_; i > 0 && written_ < wanted_.frames(); --i) {
-        bool changes = true;
-        if (wanted_.show)
-            changes = wanted_.show(workspace_, written_);
-        else
-            workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
-        if (changes || written_ == 0)
+        if (show(wanted_, workspace_, written_) || written_ == 0)
             frame_ = picture_of(workspace_, lab_, renderer_, view_, wanted_, text_.get());
         file_->add(frame_);
         ++written_;

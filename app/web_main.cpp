@@ -106,8 +106,7 @@ extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_state() {
     return handed_out(page ? page->app.state().dump() : "null");
 }
 
-/// Runs a command with a JSON object of arguments. Returns the reason if it is refused, otherwise an empty
-/// text.
+/// Runs a command with a JSON object of arguments. Returns why it is refused, otherwise an empty text.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* tendril_run(const char* command, const char* arguments) {
     using namespace tendril::app;
     if (!page) return "the program has not started";

@@ -21,8 +21,7 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
-/// A lab that could not be read keeps its JSON from the scene's file until it is edited; from then on, saving
-/// asks.
+/// A lab that could not be read keeps its JSON of the scene's file until it is edited; then saving asks.
 void replace_unread(Workspace& workspace, const Document& before) {
     const Document edited_document = workspace.document;
     for (const auto& [lab, part] : edited_document.parts()) {

@@ -98,8 +98,7 @@ Document load_document(const Document& blank, const Json& labs, const Json* stan
 }
 
 /// `document`, but sharing the workspace's parts where both would be saved identically: reading the same part
-/// again is no change and creates no undo entry. A recording, which loads its start from its first line,
-/// depends on this.
+/// again is no change and creates no undo entry. A recording's first line depends on it.
 Document sharing_equal_parts(const Document& document, const Document& present) {
     Document result = document;
     for (const auto& [lab, part] : document.parts()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/document/followed.hpp"
 #include "app/io/text.hpp"
 
 namespace tendril::app {
@@ -135,6 +136,11 @@ Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
     return {rewind.at(back).part, back > 0 ? rewind.at(back - 1).part : document.parts().at(lab)};
 }
 
+glm::vec3 followed_at(const Workspace& workspace) {
+    const auto* part = dynamic_cast<const Followed*>(workspace.document.parts().at(workspace.lab).get());
+    return part != nullptr ? part->stands_at(workspace) : glm::vec3(0.0f);
+}
+
 void Workspace::go_to_moment(std::uint64_t ticks_back) {
     const bool was_modified = modified();
     if (moment > rewind.newest()) remember_moment();
@@ -143,24 +149,26 @@ void Workspace::go_to_moment(std::uint64_t ticks_back) {
     if (clock.playing) clock.looks_back = true, clock.held = false;
     clock.playing = false;
     if (then.tick == moment) return;
+    const CameraPose seen = camera;
+    const glm::vec3 stood = followed_at(*this);
+    document.set(lab, document.parts().at(lab)->at_moment(then.part));
+    camera.target += followed_at(*this) - stood;
+    Document latest;
+    latest.set(lab, newest.part);
     if (edition == newest.edition && then.edition != newest.edition) {
-        Document before;
-        before.set(lab, newest.part);
         Place from = place(), to = place();
+        from.camera = seen;
         from.moment = MomentId{newest.tick, newest.edition};
         to.moment = MomentId{then.tick, then.edition};
-        if (!history.leads_to(before)) history.push(before, "time.seek", 0, from, to);
+        if (!history.leads_to(latest)) history.push(latest, "time.seek", 0, from, to);
     } else if (then.edition == newest.edition) {
         // Back at the starting moment: the time.seek entry has nothing to undo.
-        Document here;
-        here.set(lab, newest.part);
-        if (history.undo_label() == "time.seek" && history.leads_to(here)) history.forget_last();
+        if (history.undo_label() == "time.seek" && history.leads_to(latest)) history.forget_last();
     }
     const bool over_a_change = edition != then.edition;
     moment = then.tick;
     clock.tick = then.clock;
     edition = then.edition;
-    document.set(lab, document.parts().at(lab)->at_moment(then.part));
     if (!was_modified && !over_a_change) saved = document;
 }
 
@@ -176,8 +184,7 @@ void Workspace::toast(std::string text, ToastKind kind) {
     const int ticks =
         static_cast<int>((kind == ToastKind::Info ? info_seconds : refusal_seconds) / tick_seconds);
 
-    // A repeated text moves to the end and restarts its time, so that a drag against a limit does not fill
-    // the window.
+    // A repeated text moves to the end and starts anew: a drag against a limit must not fill the window.
     auto& toasts = ui.toasts;
     std::erase_if(toasts, [&](const Toast& toast) { return toast.text == text; });
     toasts.push_back({std::move(text), kind, ticks});

@@ -87,8 +87,7 @@ class Plot {
             tell_nearest(mouse);
     }
 
-    /// Values of both axes at a pixel, clamped to the plot; on a logarithmic axis the value, not its
-    /// exponent.
+    /// Values of both axes at a pixel, clamped to the plot; on a logarithmic axis not the exponent.
     glm::vec2 values_at(ImVec2 at) const {
         const float share_x = std::clamp((at.x - from_.x) / std::max(to_.x - from_.x, 1.0f), 0.0f, 1.0f);
         const float share_y = std::clamp((to_.y - at.y) / std::max(to_.y - from_.y, 1.0f), 0.0f, 1.0f);

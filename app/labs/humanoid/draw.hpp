@@ -23,8 +23,7 @@ std::optional<humanoid::Effector> picked_effector(PickId pick);
 std::optional<std::size_t> picked_node(const HumanoidPart& part, PickId pick);
 
 /// For each node, whether it belongs to the body: mapped, between mapped nodes, the only child of a mapped
-/// one, or along a curve. Excludes fingers, twist bones and nodes above the hips. If hardly any node is
-/// mapped, all belong.
+/// one, or along a curve. Excludes fingers, twist bones and nodes above the hips. If few are mapped: all.
 std::vector<bool> body_nodes(const HumanoidPart& part);
 /// For each node, whether a spring turns it.
 std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers);

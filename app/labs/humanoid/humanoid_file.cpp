@@ -1,5 +1,4 @@
-// The Humanoid lab in a scene file: the character's file name and the user's settings. Loading reads the
-// character's file again.
+// The Humanoid lab in a scene file: the character's file, which loading reads again, and the settings.
 #include <optional>
 
 #include "app/fields/fields.hpp"

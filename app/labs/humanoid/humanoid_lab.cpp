@@ -37,15 +37,14 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
     const bool steps =
         part.ik.balance.body.balance && part.ik.balance.steps && body_acts(part, part.ik_state);
-    const bool swings = !part.springs.empty();
-    const bool hangs = !part.attachments.list.empty();
+    const bool swings = !part.springs.empty() || !part.attachments.list.empty();
     return goes_on(part.playback, *part.loaded) || part.ik_state.release.left > 0.0 ||
-           ((eases || steps || swings || hangs) && part.quiet_ticks < until_rest);
+           ((eases || steps || swings) && part.quiet_ticks < until_rest);
 }
 
 void HumanoidLab::step(Workspace& workspace) const {
-    const bool modified = workspace.modified(), follows = humanoid_part(workspace).view.follow;
-    const glm::vec3 before = standing_at(workspace);
+    const bool modified = workspace.modified();
+    const glm::vec3 before = followed_at(workspace);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
@@ -57,7 +56,7 @@ void HumanoidLab::step(Workspace& workspace) const {
     carry_targets(part, playback);
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
     advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
-    if (follows) workspace.camera.target += standing_at(workspace) - before;
+    workspace.camera.target += followed_at(workspace) - before;
     if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 

@@ -11,7 +11,7 @@
 #include <tendril/rig/transform.hpp>
 #include <vector>
 
-#include "app/document/document.hpp"
+#include "app/document/followed.hpp"
 #include "app/document/workspace.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/names.hpp"
@@ -59,13 +59,11 @@ void advance(Playback& playback, const LoadedCharacter& character, double second
 void go_to(Playback& playback, const LoadedCharacter& character, double seconds);
 
 /// The clip's local pose at that moment, before anything modifies it. `hips`: the node whose motion carries
-/// over from round to round; without it each round restarts at the same position. `unfixed`: use the clip
-/// before its fixes.
+/// over from round to round; without it each round restarts at the same place. `unfixed`: the clip as read.
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips, bool unfixed = false);
 
-/// The speed at which a clip that walks in place keeps its standing feet fixed on the ground, m/s; 0 if it
-/// travels already, or stands.
+/// The speed that fixes the standing feet of a walk in place, m/s; 0 for a clip that travels or stands.
 glm::dvec3 pace_of(const HumanoidPart& part, std::size_t clip);
 /// Call after a change of clip, bone map or Playback::travel.
 void measure_pace(HumanoidPart& part);
@@ -135,7 +133,7 @@ struct HumanoidView {
     bool operator==(const HumanoidView&) const = default;
 };
 
-struct HumanoidPart final : Part {
+struct HumanoidPart final : Part, Followed {
     HumanoidPart();  ///< the stick figure
     explicit HumanoidPart(SharedCharacter loaded);
 
@@ -168,6 +166,8 @@ struct HumanoidPart final : Part {
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
+    /// The point below the hips, or below the first node.
+    glm::vec3 stands_at(const Workspace& workspace) const override;
     std::size_t bytes() const override;
     std::size_t shared_bytes(const Part& other) const override;
     std::vector<std::filesystem::path> files() const override;

@@ -264,8 +264,7 @@ float size_of(const HumanoidPart& part) {
     return static_cast<float>(std::max(0.01, glm::distance(rest.low, rest.high)));
 }
 
-/// Encloses its nodes, except those that a walk leaves behind, such as its root, with a margin as wide as its
-/// skin has at rest.
+/// Encloses its nodes, with its skin's margin at rest; not those that a walk leaves behind, such as its root.
 Box figure_box(const HumanoidPart& part, const ShownPose& shown) {
     const LoadedCharacter& loaded = *part.loaded;
     const glm::vec3 hips = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));

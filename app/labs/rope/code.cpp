@@ -100,8 +100,7 @@ class RopeProgram {
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }
-    /// Adds a body, collider, tie or pin: `members`, then those fields of its table that differ from their
-    /// default, then `last`.
+    /// Adds a body, collider, tie or pin: `members`, the fields of its table without their defaults, `last`.
     template <class Row>
     void add(const std::string& what, const Row& row, std::vector<std::string> members,
              const std::string& last = {}) {

@@ -137,8 +137,7 @@ class Drawing {
         }
     }
 
-    /// Particles much heavier than their neighbours, such as a pendulum's bob, are balls of a size that fits
-    /// their mass.
+    /// Particles much heavier than their neighbours, as a pendulum's bob, are balls, sized by their mass.
     void weights() {
         const std::vector<double>& mass = world_.state().mass;
         for (const rope::Body& body : world_.state().bodies) {

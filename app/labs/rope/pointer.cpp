@@ -431,8 +431,7 @@ SelectedParticles selected_particles(const RopePart& part) {
 
 }  // namespace
 
-/// For a selected collider, a whole body, a pinned particle or several particles. A single free particle is
-/// pulled directly.
+/// For a selected collider, a whole body, pins or several particles. A single free one is pulled directly.
 std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;

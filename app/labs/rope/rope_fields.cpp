@@ -356,6 +356,7 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     if (wanted.bend != now.bend) world.change(name, &World::set_compliance, Kind::Bend, *wanted.bend);
     if (wanted.body.tear != now.body.tear) world.change(name, &World::set_tear, wanted.body.tear);
     if (wanted.colour != now.colour) world.set_colour(name, wanted.colour);
+    if (wanted.length != now.length || wanted.width != now.width) edit.move_pins({});
     if (given.has("name")) rename_body(edit, name, given.text("name"));
 }
 

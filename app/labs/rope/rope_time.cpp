@@ -166,8 +166,7 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
 
 namespace {
 
-/// A cloth with more than a few ties per side may be solved by elimination, whose work grows with the cube of
-/// its side.
+/// Elimination, which solves a cloth with more than a few ties per side, grows with the cube of its side.
 std::uint64_t work_of_tied_cloth(const rope::State& state) {
     double work = 0.0;
     for (const rope::Body& body : state.bodies) {

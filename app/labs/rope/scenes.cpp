@@ -152,8 +152,7 @@ void shape_rope(const SceneBody& given, const rope::Body& body, rope::State& sta
     if (given.end_mass > 0.0) state.mass[body.first + body.count - 1] = given.end_mass;
 }
 
-/// Folds a cloth, with pressed creases: the rest lengths of shear and bend links are those of the folded
-/// cloth.
+/// Folds a cloth, with pressed creases: its shear and bend links rest at their folded lengths.
 void fold_cloth(const std::vector<glm::dvec3>& fold, const rope::Body& body, rope::State& state) {
     for (std::size_t row = body.first; row < body.first + body.count; row += body.row)
         for (std::size_t i = body.row; i-- > 0;) state.position[row + i] = state.position[row] + fold[i];

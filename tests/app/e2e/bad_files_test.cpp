@@ -1,5 +1,4 @@
-// Unreadable scripts and scenes: exit code 2 (or a refusal in a running program), a one-line message, and
-// nothing overwritten.
+// Unreadable scripts and scenes: exit code 2 (or a refusal in a window), one line, and nothing overwritten.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -254,8 +254,7 @@ std::vector<std::vector<std::string>> paths_by_kind(const Json& scene, const std
     return all;
 }
 
-/// Random values of a saved scene get another type or size: the scene is refused with the value's path, or
-/// read completely.
+/// Random values of a saved scene change type or size: it is refused with the value's path, or read whole.
 TEST_P(EveryScene, IsRefusedWithThePathOfTheFaultOrReadCompletely) {
     const Labs labs = all_labs();
     const auto window = open_offscreen({640, 480});

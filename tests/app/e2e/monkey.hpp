@@ -150,8 +150,7 @@ inline void expect_finite(const Json& json, const std::string& where) {
     }
 }
 
-/// Replays what `act` did and recorded in another program, and expects the same state. `labs` makes their
-/// labs.
+/// Replays in another program what `act` did, and expects the same state. `labs` makes their labs.
 template <class Act>
 void expect_replay_ends_the_same(
     Act act, Labs (*labs)() = [] { return Labs(); }) {

@@ -156,8 +156,7 @@ TEST(TypedNumbers, TabGoesToTheNextField) {
     EXPECT_EQ(none.at("iterations"), 100);
 }
 
-/// Only the direct solver bends ropes: with another, Tab goes from the stretch to the strain at which it
-/// tears.
+/// Only the direct solver bends ropes: with another, Tab goes from stretch to the strain of a tear.
 TEST(TypedNumbers, TabSkipsTheBendingThatTheSolverIgnores) {
     const auto typed = [](const char* solver) {
         return scene_after(ScriptText()

@@ -75,8 +75,7 @@ TEST_F(CommandTitles, NameTheChangeThatUndoReverts) {
     EXPECT_EQ(redo_title(table_, workspace.history), "Redo: add a joint at the tip");
 }
 
-// Menu, help and the README's list use the palette's titles; only a shortcut with arguments ("Save as...")
-// has a title of its own.
+// Menu, help and the README's list use the palette's titles, except shortcuts with arguments ("Save as...").
 TEST_F(CommandTitles, AreTheMenusTitles) {
     const Shortcuts shortcuts(labs_, table_);
     std::set<std::string> plain;

@@ -247,6 +247,19 @@ TEST_F(CureButton, HalvesTheSubstepOfARopeThatStretches) {
     EXPECT_NEAR(substep(), 0.5 * before, 1e-12);
 }
 
+TEST_F(CureButton, IsNotNeededForALongerRope) {
+    run("lab.open", {{"name", "rope"}});
+    run("rope.clear");
+    run("time.pause");
+    run("view.fold", {{"section", "rope: Add"}, {"folded", false}});
+    click(at("Rope"));
+    click(at("1.700 m"));
+    take(app::TextInput{"3"});
+    take(app::KeyTap{*app::chord_from_name("enter")});
+    EXPECT_TRUE(seen("3.000 m"));
+    EXPECT_EQ(verdict(), "Lengths hold");
+}
+
 TEST_F(CureButton, RestartsARopeThatTore) {
     run("lab.open", {{"name", "rope"}});
     run("rope.clear");

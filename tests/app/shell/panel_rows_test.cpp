@@ -249,6 +249,10 @@ TEST_F(RowsUnderMore, TheKindOfAnAttachmentChoosesItsBone) {
     click(at("hair"));
     EXPECT_TRUE(shows("Head"));
     EXPECT_FALSE(shows("Hips"));
+    const std::size_t before = app_.state().at("attachments").size();
+    const glm::vec2 add = at("Add");
+    click(add), click(add);
+    EXPECT_EQ(app_.state().at("attachments").size(), before + 2) << "the button stays under the pointer";
 }
 
 /// Gusts are shown if there is wind.

@@ -1,5 +1,4 @@
-// Positions in the Chain lab's panel that tests click, in the initial window of 1280 by 720, with every
-// section unfolded.
+// Places in the Chain lab's panel that tests click, at 1280 by 720 pixels, with every section unfolded.
 #pragma once
 
 #include "app/io/json_complete.hpp"

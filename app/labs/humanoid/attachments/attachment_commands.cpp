@@ -257,7 +257,6 @@ void attachment_rows(const HumanoidPanel& panel) {
     explain(
         "Curves bend the clip's pose. Feet, targets and hands are IK; look-at, the rig's Aim, and springs "
         "follow. Ropes, hair and cloth come last, and lie on the resulting pose.");
-    for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     HumanoidRuntime::Panel& kept = panel.runtime.panel;
     const auto titles = attachment_kinds.titles();
     const bool chosen =
@@ -275,6 +274,7 @@ void attachment_rows(const HumanoidPanel& panel) {
     if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "No more can be added"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
     end_row();
+    for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     FieldRows({wind_fields(), &panel.part.attachments.world->settings(), &attachment_settings}, wind_texts(),
               "humanoid.wind", panel.emit)
         .all();

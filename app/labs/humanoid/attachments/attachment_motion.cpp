@@ -18,8 +18,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double longest_substep = 1.0 / 240.0;
-/// Moving farther per tick than this fraction of the character's height, or turning further, is a jump. For
-/// an adult that is 27 m/s.
+/// Moving by more of the character's height per tick, 27 m/s for an adult, or turning further, is a jump.
 constexpr double longest_way = 0.25, largest_turn = glm::radians(100.0);
 constexpr double resting_speed = 5e-3;  ///< m/s
 
@@ -47,8 +46,7 @@ std::optional<double> joined_part(humanoid::Bone bone) {
     return std::ranges::find(limbs, bone) != limbs.end() ? std::optional(0.0) : std::nullopt;
 }
 
-/// Limbs, and things that hands hold, are soft: where they press on the trunk they get thinner, to leave room
-/// for cloth in between.
+/// Limbs and held things are soft: pressed on the trunk they get thinner, to leave room for cloth in between.
 std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& worn) {
     double room = 0.0;
     for (const rope::Body& each : worn.bodies) room = std::max(room, 2.0 * static_cast<double>(each.radius));

@@ -24,8 +24,7 @@ humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t cl
 /// The ground on which foot IK puts the feet; null without foot IK.
 const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
 
-/// Cached until character, bone map, clip or limits change; the report on the result also until IK, curves or
-/// springs change.
+/// Cached until character, bone map, clip or limits change; the result's also until IK, curves or springs do.
 class ClipLint {
   public:
     /// The report on the clip or on the result, as HumanoidView::judged says. Null without a clip, or for
@@ -58,8 +57,7 @@ struct CuredClip {
     SharedCharacter loaded;
     std::string text;  ///< for the user: how many faults were fixed, which remain, and why
 };
-/// Cures the clip's faults that match `cure`, until no more can be cured. Throws std::invalid_argument if
-/// none can.
+/// Cures the clip's faults that match `cure`, as many as can be. Throws std::invalid_argument if none can.
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
 /// True if judging the chosen clip takes at most a frame.
 bool judged_soon(const HumanoidPart& part);

@@ -70,8 +70,7 @@ std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::Bent
 std::vector<glm::vec3> shown_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                                    std::size_t curve);
 
-/// The picked part of a curve: a control point, or a position on it as for ik::curve_point() of
-/// shown_curve().
+/// The picked part of a curve: a control point, or a place on shown_curve() as for ik::curve_point().
 struct PickedCurve {
     std::size_t curve = 0;
     std::optional<std::size_t> control{};  ///< index into the shape's points

@@ -1,5 +1,4 @@
-// The object that the hands hold in the Humanoid lab: solving, reporting, drawing, commands. For its settings
-// see hold_setting.hpp.
+// The object that the hands hold: solving, reporting, drawing, commands. Its settings: hold_setting.hpp.
 #pragma once
 
 #include "app/labs/humanoid/draw.hpp"

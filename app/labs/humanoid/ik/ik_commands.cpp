@@ -232,10 +232,9 @@ void add_ik_commands(CommandTable& table) {
                                 "meshes turn foot IK on and restart the walk",
                                 set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
-        const glm::vec3 before = standing_at(workspace);
+        const glm::vec3 before = followed_at(workspace);
         set(workspace, given);
-        if (workspace.lab == humanoid_lab && humanoid_part(workspace).view.follow)
-            workspace.camera.target += standing_at(workspace) - before;
+        workspace.camera.target += followed_at(workspace) - before;
         using humanoid::GroundKind;
         const GroundKind kind = humanoid_part(workspace).ik.ground.kind;
         if (given.has("kind") && (kind == GroundKind::Slope || kind == GroundKind::Stairs))

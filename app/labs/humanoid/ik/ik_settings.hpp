@@ -1,5 +1,4 @@
-// A character's IK settings, the ground that it walks on, and the state of IK and springs between ticks. All
-// values.
+// Values: a character's IK settings, its ground, and the state of IK and springs between ticks.
 #pragma once
 
 #include <array>
@@ -43,8 +42,7 @@ struct GroundMesh : OutsideFile {
     TriangleMesh triangles;
     humanoid::Ground ground;
 };
-/// `file`: the user's name for the file, if it differs from its path. Throws std::runtime_error that begins
-/// with the file name.
+/// `file`: the user's name for it, if not its path. Throws std::runtime_error that begins with that name.
 std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path, const std::string& file = {});
 
 /// Keeps the values of other kinds.

@@ -334,10 +334,10 @@ const ShownPose& shown_pose(const Workspace& workspace) {
     return humanoid_runtime(workspace).shown(workspace);
 }
 
-glm::vec3 standing_at(const Workspace& workspace) {
-    const HumanoidPart& part = humanoid_part(workspace);
+glm::vec3 HumanoidPart::stands_at(const Workspace& workspace) const {
+    if (!view.follow) return glm::vec3(0.0f);
     const ShownPose& shown = shown_pose(workspace);
-    const glm::vec3 at = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
+    const glm::vec3 at = shown.point(node_of(humanoid::Bone::Hips).value_or(0));
     return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
 }
 

@@ -46,8 +46,7 @@ struct ShownPose {
 };
 
 /// Solves the pose `dt` seconds after `state` and updates `state`. With a dt of 0 no time passes, and the
-/// same part gives the same pose again. Feet on the ground depend only on the part: its settings and the
-/// clip's time.
+/// same part gives the same pose again. Feet on the ground depend on settings and clip time alone.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
 
 // Input of the solvers, also for exported code.
@@ -58,8 +57,7 @@ std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
 /// Without the stepping feet.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
-/// True if full-body IK runs before gaze and hands: there is a target or a held object, or a foot has stepped
-/// away.
+/// True if full-body IK runs before gaze and hands: for a target, a held object or a foot that stepped away.
 bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 /// `body_solved`: targets hold the body, so only neck and head turn.
@@ -72,8 +70,7 @@ void carry_springs(Workspace& workspace);
 /// Why a foot follows the clip although foot IK is on; empty if the ground moves it. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
-/// Describes the centre of mass: "4 cm inside the feet", "7 cm ahead of the feet"; "stepping" while a foot is
-/// in the air. Balance must be on.
+/// Of the centre of mass: "4 cm inside the feet", "7 cm ahead of the feet", "stepping". Balance must be on.
 std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
 /// Why balance is on but does nothing, or a foot does not step; empty if it acts.
 std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
@@ -88,14 +85,10 @@ inline constexpr double max_depth = 0.01;  ///< metres
 
 /// The displayed pose of the lab's part, cached until the part changes. Valid until the next call.
 const ShownPose& shown_pose(const Workspace& workspace);
-/// The point below the hips, or below the first node.
-glm::vec3 standing_at(const Workspace& workspace);
-/// For commands that change IK: solves, and stores the new state. Throws std::invalid_argument if the library
-/// refuses a target.
+/// For commands on IK: solves, and stores the state. Throws std::invalid_argument for a refused target.
 void solve_now(Workspace& workspace);
 
-// Releasing a target: the limb eases back to the clip, and the rest of the body relaxes as far as only that
-// target held it.
+// Releasing a target: its limb eases back to the clip, and so does the body where only that target held it.
 //
 // The new pose is computed at once. While a clip plays, the difference to the old pose is stored and fades
 // out (inertialization: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of War",

@@ -24,8 +24,7 @@ class Solvers;
 /// Corrected feet depend on earlier frames: hips ease, and feet stay where they were put down. A moment must
 /// look the same whether played, scrubbed to or exported, so its past is always the same: the clip from its
 /// start, in steps of a tick at the recorded speed. From the second block of `block_ticks` on, the past
-/// begins one block earlier, which bounds the work. Only a foot that has not left the ground for half a
-/// minute differs.
+/// begins one block earlier, which bounds the work. Only a foot that stood for half a minute differs.
 ///
 /// Cost: a moment after the last one takes one step, some 50 µs; any other in the same blocks at most
 /// `ticks_apart`; the first one after a change of settings all since the start, up to 0.2 s after a minute.
@@ -98,8 +97,7 @@ class Solvers {
     /// Null if the map does not describe a body; why_no_body() then has the reason.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
-    /// In the order of the part's springs; null if the bone map leaves no room for one, and why_no_spring()
-    /// has the reason.
+    /// In the order of the part's springs; null if the bone map leaves no room: see why_no_spring().
     const SpringChains& springs(const HumanoidPart& part);
     /// In the order of the part's curves; null if the character has no such chain.
     const BentChains& curves(const HumanoidPart& part);
@@ -158,8 +156,7 @@ class Solvers {
     std::unique_ptr<LimitRanges> ranges_;
 };
 
-// The chains of a body in the order of solving: layer 0 the hips, layer 1 legs and spine, layer 2 arms, neck
-// and head.
+// A body's chains in the order of solving: layer 0 the hips, 1 legs and spine, 2 arms, neck and head.
 
 struct BodyChain {
     int layer = 0;

@@ -1,5 +1,4 @@
-// Joint limits of a character: an adult's ranges, and those seen in its clips. The user chooses between them,
-// for all joints or for each.
+// Joint limits: an adult's ranges, or those seen in clips, as the user chooses for all joints or for each.
 #pragma once
 
 #include <memory>

@@ -55,8 +55,7 @@ humanoid::PlacedCapsule place(const SpringCollider& collider, const std::vector<
 using SpringChains = std::vector<std::unique_ptr<humanoid::SpringChain>>;
 using SpringStates = std::vector<humanoid::SpringChainState>;
 
-/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are placed by the pose before any
-/// spring turns it.
+/// Turns the pose's nodes; colliders are where it has them before. With a dt of 0 no time passes.
 std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states);
 /// Call after the pose was set, not reached over time.
