@@ -22,7 +22,6 @@ namespace {
 
 std::atomic<bool> ending{false};
 
-/// Lives as long as the page.
 struct Page {
     std::unique_ptr<Window> window = open_window(Backend::Glfw, {1, 1});  // the page decides the size
     App app{*window};

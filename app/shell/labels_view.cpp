@@ -30,13 +30,12 @@ std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
 
 void show_labels(const DrawList& drawn, const Camera& camera, const Palette& palette, float scale,
                  std::span<const Rect> overlays) {
-    const std::vector<Label>& labels = drawn.labels;
-    if (labels.empty()) return;
+    if (drawn.labels.empty()) return;
     ImGui::PushFont(small_font());
     const ImVec2 padding{4.0f * scale, 1.0f * scale};
     std::vector<LabelRequest> requests;
     std::vector<const Label*> asked;
-    for (const Label& label : labels) {
+    for (const Label& label : drawn.labels) {
         const auto at = camera.project(label.at);
         if (!at) continue;
         const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
@@ -121,11 +120,10 @@ Rect show_legend(std::span<const LegendRow> rows, const Rect& view, const Palett
                         imgui_u32(palette.background_bottom, 0.82f), edge);
     for (const LegendRow& row : rows) {
         const ImVec2 centre{box.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
-        if (row.ring) {
+        if (row.ring)
             list->AddCircle(centre, 3.6f * scale, imgui_u32(row.colour), 20, 1.5f * scale);
-        } else {
+        else
             list->AddCircleFilled(centre, 4.0f * scale, imgui_u32(row.colour), 20);
-        }
         float x = centre.x + 12.0f * scale;
         const glm::vec3 ink = row.numbers.empty() ? palette.text_dim : palette.text;
         for (std::size_t i = 0; i < std::min(columns.widths.size(), row.numbers.size() + 1); ++i) {

@@ -21,7 +21,7 @@ namespace {
 constexpr const char* canvas = "#canvas";
 const char* const whole_page = EMSCRIPTEN_EVENT_TARGET_WINDOW;
 constexpr float pixels_per_notch = 100.0f, lines_per_notch = 3.0f;  ///< wheel, as browsers report it
-constexpr float zoom_per_notch = 1.1f;  ///< ratio of two fingers' distances that counts as a notch
+constexpr float zoom_per_notch = 1.15f;   ///< ratio of two fingers' distances for a notch, as in zoomed()
 constexpr float pixels_scrolled = 75.0f;  ///< by a notch over a panel: five lines, as Dear ImGui does
 
 // clang-format off
@@ -112,7 +112,7 @@ class CanvasWindow final : public Window {
     /// Fingers on the canvas.
     enum class Fingers { None, One, Two };
     Fingers fingers_ = Fingers::None;
-    float apart_ = 1.0f;  ///< distance of two fingers at the last wheel event, pixels
+    float apart_ = 1.0f;   ///< distance of two fingers at the last wheel event, pixels
     float height_ = 0.0f;  ///< of their middle, then
 };
 
@@ -249,8 +249,8 @@ void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
     if (!scrolls) move_to(static_cast<long>(at.x), static_cast<long>(at.y));
     if (now != Fingers::Two) return;
     const float apart = std::max(1.0f, glm::length(down[1] - down[0]));
-    const float by = scrolls ? (at.y - height_) / pixels_scrolled
-                             : std::log(apart / apart_) / std::log(zoom_per_notch);
+    const float by =
+        scrolls ? (at.y - height_) / pixels_scrolled : std::log(apart / apart_) / std::log(zoom_per_notch);
     pending_.emplace_back(MouseWheel{by, 0.0f});
     apart_ = apart;
     height_ = at.y;

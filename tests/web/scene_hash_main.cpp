@@ -1,5 +1,5 @@
-// Prints the hash of every scene's state after ten seconds, one a line. Every system must print the same lines:
-// .ci/nightly compares the browser's with this machine's. With the name of a scene, prints that state.
+// Prints the hash of every scene's state after ten seconds, one a line. Every system must print the same
+// lines: .ci/nightly compares the browser's with this machine's. With the name of a scene, prints that state.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
