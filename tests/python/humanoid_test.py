@@ -215,7 +215,7 @@ class OwnFiles(InFolder):
 
     @unittest.skipUnless(PROGRAM, "the program is not built")
     def test_the_program_says_the_same(self):
-        path = write_person(self.folder / "faults.bvh", slide=True, jump=True)
+        path = write_person(self.folder / "faults.bvh", slide=True, jump=True, z=105)
         character = tendril.load_character(path)
         said = json.loads(program("lint", "--json", path).stdout)
         report = tendril.lint(character.clip())
@@ -287,7 +287,7 @@ class OwnFiles(InFolder):
             self.assertRaisesRegex(ValueError, "rate must be 1 to 1000", tendril.plant_feet, person.clip(), rate=rate)
         random.seed(2)
         glb = self.folder / "own.glb"
-        self.assertRaisesRegex(ValueError, "Left\ufffd\ufffd", tendril.save_clip, glb, person.clip())
+        self.assertRaisesRegex(ValueError, "Left.. was not written", tendril.save_clip, glb, person.clip())
         tendril.save_clip(glb, self.person().clip())
         for source in [path, glb, TOP / "tests/app/data/version_6.fbx"]:
             damage(self, source, self.folder, rounds=60)
