@@ -21,6 +21,8 @@ CHARACTERS, FOUND = SHARED / "characters", SHARED / "found"
 WALK = CHARACTERS / "cmu_12_01_walk.bvh"
 TRACES = TOP / "tests/app/io/traces"
 PROGRAM = os.environ.get("TENDRIL_PROGRAM")
+if not PROGRAM or not Path(PROGRAM).exists():
+    PROGRAM = None
 
 # A body of 1.74 m, in centimetres: name, parent, offset.
 BODY = [("Hips", None, (0, 95, 0)), ("Spine", "Hips", (0, 12, 0)), ("Chest", "Spine", (0, 18, 0)),
