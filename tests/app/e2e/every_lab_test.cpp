@@ -1,6 +1,7 @@
 // Properties of every lab, and of one that exists only in the tests: random events and commands on each of
 // its scenes break nothing, and replaying them gives the same result.
 #include "app/document/scene_file.hpp"
+#include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
@@ -99,6 +100,17 @@ void expect_opens_again(const Workspace& workspace, bool goes_on = false) {
     if (goes_on) expect_goes_on_as(workspace, std::move(opened), *labs.find(workspace.lab));
 }
 
+/// Lengths are kept, and all coordinates are finite.
+void expect_whole(const Chain& chain) {
+    const auto segments = chain.segments();
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+        const glm::vec3 a = segments[i - 1].position, b = segments[i].position;
+        for (int axis = 0; axis < 3; ++axis) ASSERT_TRUE(std::isfinite(b[axis])) << i;
+        if (std::max(glm::length(a), glm::length(b)) > 1e3f) continue;
+        ASSERT_LE(length_error(chain, i), 1e-4f * std::max(1.0f, segments[i].length)) << i;
+    }
+}
+
 class EveryScene : public testing::TestWithParam<LabScene> {
     TempFolder folder_;
     WorkingIn inside_{folder_};  // random commands write files
@@ -115,11 +127,13 @@ TEST_P(EveryScene, SurvivesRandomEventsAndCommandsAndReplaysThem) {
             set_up(app, GetParam());
             app.workspace().history.clear();  // a recording knows its initial scene, and nothing before it
             app.workspace().cameras.clear();
+            app.workspace().clock.tick = 0;
             app.start_recording();
             Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
             const int events = std::max(rounds(80), 12);
             for (int i = 0; i < events && !HasFailure(); ++i) {
                 monkey.act();
+                expect_whole(chain_part(app.workspace()).chain);
                 if (i % 20 == 0) expect_finite(app.state(), "state");
                 if (i % 10 == 9) expect_opens_again(app.workspace());
             }

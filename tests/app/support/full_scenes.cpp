@@ -39,6 +39,14 @@ CommandCall preset_call(const Lab& lab, const std::string& name) {
 /// Paths of files begin with "tests/", at the top of the project.
 void add_commands_of(const Json& scene, std::vector<CommandCall>& commands) {
     for (const Json& line : scene.at("commands")) {
+        if (line.contains("rows")) {  // one command for each row of a file
+            for (const Json& row : read_json_file(source_path(line.at("rows")))) {
+                CommandCall& made = commands.emplace_back(CommandCall{line.at("command")});
+                for (const auto& [name, value] : row.items())
+                    made.arguments.push_back({name, SharedJson(value)});
+            }
+            continue;
+        }
         CommandCall& made = commands.emplace_back(CommandCall{line.at("command")});
         for (const auto& [name, value] : line.items())
             if (value.is_string() && value.get_ref<const std::string&>().starts_with("tests/"))

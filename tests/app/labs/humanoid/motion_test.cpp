@@ -464,19 +464,5 @@ TEST_F(HumanoidRelease, ANewTargetOfTheSameHandIsReachedAtOnce) {
     EXPECT_LT(glm::distance(bone("RightHand"), wanted), 1e-3);
 }
 
-TEST_F(HumanoidRelease, IsSavedUndoneAndContinuesTheSame) {
-    begin_anew(true);
-    reach_with_both_hands();
-    const Json held = state();
-    let_go("right_hand");
-    let_go("left_hand");
-    tick(5);
-    EXPECT_NE(part().ik_state.release, Release());
-    expect_goes_on_the_same();
-    run("undo");
-    run("undo");
-    EXPECT_EQ(state(), held);
-}
-
 }  // namespace
 }  // namespace tendril::app

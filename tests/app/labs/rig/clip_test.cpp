@@ -67,20 +67,6 @@ TEST_F(RigClips, SpringMotionCannotBeExpressed) {
     EXPECT_GT(runs[0].at("degrees"), 1.0);
 }
 
-TEST_F(RigClips, ContinuesTheSameAfterSavingHalfway) {
-    walking_head();
-    run("rig.clip.record", {{"seconds", 0.5}});
-    run("rig.clip.solve");
-    lab().work(workspace);
-    ASSERT_TRUE(left().running);
-    Workspace other = reopened();
-    EXPECT_EQ(*rig_part(other).clip, *part().clip);
-    EXPECT_EQ(*rig_part(other).clip_left, left());
-    while (lab().working(workspace)) lab().work(workspace);
-    while (lab().working(other)) lab().work(other);
-    EXPECT_EQ(*rig_part(other).clip_left, left());
-}
-
 TEST_F(RigClips, IsExportedAsItWasRecorded) {
     const test::TempFolder folder;
     const std::string path = (folder / "head.glb").string();

@@ -132,34 +132,6 @@ TEST_F(RigFile, UnitsWithoutANameGetAUniqueOne) {
     EXPECT_EQ(loop.body[0].name, "from_two_vectors 5");
 }
 
-/// In the middle of a motion, with global poses, without propagation, and with all memory in use.
-TEST_F(RigFile, TheStateIsRestoredBitForBitAndContinuesAlike) {
-    for (const Json& each : one_of_each()) unit(each);
-    set("float", 0.7);
-    set("vector2d", {0.5, -1.5});
-    set("position", {0.3, 1.7, -0.4});
-    tick(5);
-    set("rotation", {0.1, 0.2, 0.3, 0.9});
-    tick(3);
-    run("rig.element.set",
-        {{"name", "middle"},
-         {"space", "global"},
-         {"propagate", false},
-         {"transform", {{"translation", {0.1, 0.7, 0.3}}, {"rotation", {0.3, 0.1, 0.2, 0.7}}}}});
-    for (int round = 0; round < 3; ++round) {
-        Workspace other = reopened();
-        EXPECT_TRUE(rig_part(other) == part()) << round;
-        EXPECT_EQ(save_scene(other), save_scene(workspace)) << round;
-        for (int i = 0; i < 20; ++i) {
-            tick();
-            if (lab().moving(other)) lab().step(other);
-        }
-        EXPECT_EQ(lab().state(other), state()) << round;
-        EXPECT_TRUE(rig_part(other) == part()) << round;
-        EXPECT_TRUE(part().moving) << "springs with little damping take their time";
-    }
-}
-
 TEST_F(RigFile, AHandWrittenRigStartsAtRest) {
     Json scene = save_scene(workspace);
     Json& rig = scene.at("labs").at(rig_lab);
