@@ -23,8 +23,8 @@ constexpr int min_newton_steps = 2, max_newton_steps = 8;
 constexpr double accepted_strain = 0.007;
 constexpr double accepted_depth = 0.01;  ///< relative to the shortest stretch link
 /// A step is solved once its residual falls to this part of its initial value or, in later steps, of the
-/// forces on free particles, and then below what strains a single link.
-constexpr double relative_residual = 0.1, force_residual = 0.1;
+/// forces on free particles, and then below what strains a single link. A tenth of the forces bends a swing.
+constexpr double relative_residual = 0.1, force_residual = 0.03;
 constexpr double residual_strain = 1e-3;
 constexpr double max_predicted_move = 0.05;  ///< displacement by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
