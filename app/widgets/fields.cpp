@@ -214,7 +214,7 @@ bool text_field(const char* name, std::string& value, const char* hint, float ro
     const auto given = text;
     if (edited) text = typed.text;
     if (!edited && shows_cut_text(id.c_str(), value)) return false;
-    const float width = ImGui::CalcItemWidth() - 2.0f * ImGui::GetStyle().FramePadding.x;
+    const float width = ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x;
     const bool entered =
         ImGui::InputTextWithHint(id.c_str(), elided_in_middle(hint, width).c_str(), text.data(), text.size(),
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
