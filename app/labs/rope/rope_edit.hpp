@@ -24,7 +24,7 @@ class RopeEdit {
     bool running() const { return seconds_ > 0.0; }
     NamedWorld& world();
     /// Moves over one tick, so that obstacles are pushed evenly. While the simulation is paused, moves at
-    /// once by a quasi-static drag; with no pins, ropes take their shape.
+    /// once by a quasi-static drag, in which every body settles.
     void move_pins(const std::vector<rope::PinPlace>& pins);
     void move_collider(const std::string& name, const glm::vec3& to);
     void set_collider(const std::string& name, const rope::Shape& shape);  ///< moves at once

@@ -356,7 +356,12 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     if (wanted.bend != now.bend) world.change(name, &World::set_compliance, Kind::Bend, *wanted.bend);
     if (wanted.body.tear != now.body.tear) world.change(name, &World::set_tear, wanted.body.tear);
     if (wanted.colour != now.colour) world.set_colour(name, wanted.colour);
-    if (wanted.length != now.length || wanted.width != now.width) edit.move_pins({});
+    if (!edit.running() && (wanted.length != now.length || wanted.width != now.width)) {
+        std::vector<rope::PinPlace> kept;
+        for (const rope::Pin& pin : world.state().pins)
+            if (!pin.collider) kept.push_back({pin.particle, pin.goal});
+        edit.move_pins(kept);
+    }
     if (given.has("name")) rename_body(edit, name, given.text("name"));
 }
 

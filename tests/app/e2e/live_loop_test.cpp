@@ -68,12 +68,9 @@ TEST_F(LiveLoopTest, TimeKeepsPaceWithSlowFramesButDoesNotRaceAfterAStall) {
     tick = app_.workspace().clock.tick;
     turn({}, 30.0);
     EXPECT_LE(app_.workspace().clock.tick - tick, 20u);
-    const TempFolder folder;
-    app_.run({"view.video", Json{{"path", (folder / "a.png").string()}, {"width", 160}}});
-    turn();
+    app_.workspace().ui.filming.emplace();
     tick = app_.workspace().clock.tick;
     turn({}, 30.0);
-    ASSERT_TRUE(app_.workspace().ui.filming);
     EXPECT_LE(app_.workspace().clock.tick - tick, 1u) << "its progress is drawn as well";
 }
 

@@ -74,7 +74,10 @@ void expect_frames_are_pictures(const ScriptText& scene, const Json& more, int f
 }
 
 TEST(Video, ShowsADragAWalkAndARopeAsTheyWere) {
-    const ScriptText walk = ScriptText().command("lab.open", {{"name", "humanoid"}}).wait(60);
+    const ScriptText walk = ScriptText()
+                                .command("lab.open", {{"name", "humanoid"}})
+                                .command("humanoid.clip", {{"name", "walk"}, {"play", true}})
+                                .wait(60);
     expect_frames_are_pictures(dragged_chain(), {{"from", 0.5}, {"to", 0.1}}, 30, 6, 2);
     expect_frames_are_pictures(walk, {{"from", 0.5}, {"to", 0.1}, {"every", 6}}, 30, 6, 6);
     expect_frames_are_pictures(swinging_rope(), {{"from", 0.6}, {"every", 3}}, 36, 0, 3);

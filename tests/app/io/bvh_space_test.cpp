@@ -251,7 +251,7 @@ TEST(BvhSpace, IfTheyDifferTheUpAxisIsTheMotions) {
         parse_bvh(written({.root_turn = {0, 90, 0}, .root = {30, 60, 90}, .way = {0, -2, 0}}), "it.bvh");
     EXPECT_EQ(z_up.space.up, UpAxis::Z);
     expect_standing(z_up);
-    EXPECT_TRUE(test::says(all_text(z_up), "zero pose along Y motion along Z turned"));
+    EXPECT_TRUE(test::says(all_text(z_up), "zero pose along Y motion along Z rotated"));
     // And the other way round.
     const Character y_up = parse_bvh(written({.rest_z_up = true, .root_turn = {0, -90, 0}}), "it.bvh");
     EXPECT_EQ(y_up.space.up, UpAxis::Y);

@@ -251,8 +251,10 @@ TEST_F(CureButton, IsNotNeededForALongerRope) {
     run("lab.open", {{"name", "rope"}});
     run("rope.clear");
     run("time.pause");
-    run("view.fold", {{"section", "rope: Add"}, {"folded", false}});
-    click(at("Rope"));
+    run("rope.add",
+        {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"length", 1.7}, {"segments", 8}});
+    for (const int particle : {0, 8}) run("rope.pin", {{"rope", "line"}, {"particle", particle}});
+    run("rope.select", {{"rope", "line"}});
     click(at("1.700 m"));
     take(app::TextInput{"3"});
     take(app::KeyTap{*app::chord_from_name("enter")});
