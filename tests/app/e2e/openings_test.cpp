@@ -1,7 +1,7 @@
 // The openings: each lab moves by itself in a new window until the user takes over.
+#include "app/app.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/app.hpp"
 #include "app/session.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/e2e/monkey.hpp"

@@ -70,8 +70,7 @@ void carry_springs(Workspace& workspace);
 /// Why a foot follows the clip although foot IK is on; empty if the ground moves it. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
-/// The centre of mass in words: "4 cm inside the feet", "7 cm ahead of the feet", "stepping". Balance must be
-/// on.
+/// The centre of mass in words: "4 cm inside the feet", "7 cm ahead of the feet", "stepping". Needs balance.
 std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
 /// Why balance is on but does nothing, or a foot does not step; empty if it acts.
 std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
