@@ -79,7 +79,7 @@ std::vector<glm::vec3> directions(const std::vector<glm::vec3>& joints) {
         const double x = static_cast<double>(joints[i].x) - static_cast<double>(joints[i - 1].x);
         const double y = static_cast<double>(joints[i].y) - static_cast<double>(joints[i - 1].y);
         const double z = static_cast<double>(joints[i].z) - static_cast<double>(joints[i - 1].z);
-        const double size = std::hypot(x, y, z);
+        const double size = std::sqrt(x * x + y * y + z * z);
         found.push_back(size > 0.0 ? glm::vec3(x / size, y / size, z / size) : glm::vec3(1.0f, 0.0f, 0.0f));
     }
     return found;

@@ -10,6 +10,8 @@
 #include <random>
 #include <tendril/ik/solver.hpp>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -28,7 +30,7 @@ glm::vec3 direction(std::mt19937& random) {
     const float z = 2.0f * uniform(random) - 1.0f;
     const float angle = 2.0f * std::numbers::pi_v<float> * uniform(random);
     const float side = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    return {side * std::cos(angle), side * std::sin(angle), z};
+    return {side * math::cosine(angle), side * math::sine(angle), z};
 }
 
 PaperTargets make_targets(const char* name, ik::Status solved, float nearest, float farthest) {

@@ -9,6 +9,7 @@
 #include "app/document/workspace.hpp"
 #include "app/io/json_complete.hpp"
 #include "app/system/atomic_file.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -105,7 +106,12 @@ glm::vec3 Arguments::point(const char* name) const {
 
 glm::quat Arguments::rotation(const char* name) const {
     const Json& value = json_.at(name);
-    if (value.size() == 3) return glm::quat(glm::radians(point(name)));
+    if (value.size() == 3) {
+        const glm::vec3 angles = glm::radians(point(name));
+        return math::rotation_about(glm::vec3(0, 0, 1), angles.z) *
+               math::rotation_about(glm::vec3(0, 1, 0), angles.y) *
+               math::rotation_about(glm::vec3(1, 0, 0), angles.x);
+    }
     const auto coordinate = [&](std::size_t i) { return value[i].get<float>(); };
     return glm::normalize(glm::quat(coordinate(3), coordinate(0), coordinate(1), coordinate(2)));
 }

@@ -54,7 +54,8 @@ double distance(const Json& a, const Json& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (!a[i].is_number() || !b[i].is_number()) return std::nan("");
-        sum += std::pow(a[i].get<double>() - b[i].get<double>(), 2.0);
+        const double apart = a[i].get<double>() - b[i].get<double>();
+        sum += apart * apart;
     }
     return std::sqrt(sum);
 }

@@ -1,6 +1,6 @@
 // The library's own elementary functions against the system's. Claim: they take at most 1.3 times as long for
 // the angles that solvers use.
-#include "core/src/math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 #include <cmath>
 #include <random>

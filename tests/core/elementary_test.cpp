@@ -1,5 +1,5 @@
 // The library's own elementary functions against the long double ones of the system, which have 11 bits more.
-#include "core/src/math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -116,6 +116,37 @@ TEST_F(Elementary, ArctangentsAreWithinOneUnitInTheLastPlace) {
         compare(y, y * around(10.0));
     }
     EXPECT_GT(worst, 0.5) << "nothing was compared";
+}
+
+TEST_F(Elementary, LogarithmsAndExponentialsAreWithinOneUnitInTheLastPlace) {
+    double worst = 0.0;
+    for (int i = 0; i < test::rounds(cases); ++i) {
+        for (const double x : {std::abs(any_double(random)), std::abs(around(4.0)), 1.0 + around(1e-3)}) {
+            if (x == 0.0 || x == 1.0) continue;
+            worst = std::max(worst, ulps(math::logarithm(x), std::log(static_cast<long double>(x))));
+            ASSERT_LT(worst, 1.0) << std::hexfloat << x;
+        }
+        const double power = around(707.9);
+        worst = std::max(worst, ulps(math::exponential(power), std::exp(static_cast<long double>(power))));
+        ASSERT_LT(worst, 1.0) << std::hexfloat << power;
+    }
+    EXPECT_GT(worst, 0.5) << "nothing was compared";
+    EXPECT_EQ(math::logarithm(1.0), 0.0);
+    EXPECT_EQ(math::logarithm(0.0), -infinity);
+    EXPECT_EQ(math::logarithm(infinity), infinity);
+    for (const double x : {-1.0, -infinity, nan}) EXPECT_TRUE(std::isnan(math::logarithm(x))) << x;
+    EXPECT_EQ(math::exponential(infinity), infinity);
+    EXPECT_EQ(math::exponential(-infinity), 0.0);
+    EXPECT_TRUE(std::isnan(math::exponential(nan)));
+}
+
+TEST_F(Elementary, ArccosinesStayInTheirRange) {
+    for (int i = 0; i < test::rounds(cases); ++i) {
+        const double cosine = around(1.0);
+        EXPECT_NEAR(math::arccosine(cosine), std::acos(cosine), 5e-16) << cosine;
+    }
+    EXPECT_EQ(math::arccosine(1.5), 0.0);
+    EXPECT_EQ(math::arccosine(-1.5), math::pi);
 }
 
 TEST_F(Elementary, DecayIsWithinOneUnitInTheLastPlace) {

@@ -8,6 +8,7 @@
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/unique_names.hpp"
 #include "app/io/text.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -227,8 +228,8 @@ void read_tree(Words& words, Hierarchy& hierarchy) {
 
 glm::dquat turned_about(int axis, double degrees) {
     const double half = degrees * (3.14159265358979323846 / 360.0);
-    glm::dquat turn(std::cos(half), 0.0, 0.0, 0.0);
-    turn[axis] = std::sin(half);
+    glm::dquat turn(math::cosine(half), 0.0, 0.0, 0.0);
+    turn[axis] = math::sine(half);
     return turn;
 }
 

@@ -11,6 +11,8 @@
 #include <tendril/humanoid/t_pose.hpp>
 #include <utility>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -292,7 +294,7 @@ class Judge {
         const humanoid::BoneMap map = humanoid::match_bones(*standing);
         const glm::dvec3 forward = facing(*standing, map).forward;
         glm::dquat& root = pose_[body_->root].rotation;
-        root = glm::angleAxis(-std::atan2(forward.x, forward.z), direction(up_)) * root;
+        root = math::rotation_about(direction(up_), -math::arctangent(forward.x, forward.z)) * root;
         const glm::dvec3 ahead = conjugate(turn_of(up_)) * glm::dvec3(0.0, 0.0, 1.0);
         const auto point_bone = [&](Bone from, Bone to, const glm::dvec3& way) {
             point(map[from].node, map[to].node, way);

@@ -4,6 +4,8 @@
 
 #include "app/io/character/bvh.hpp"
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -16,10 +18,10 @@ constexpr double degrees = 180.0 / 3.14159265358979323846;
 /// y is 0.
 glm::dvec3 angles_zxy(const glm::dquat& q) {
     const double sine_x = 2.0 * (q.w * q.x + q.y * q.z);
-    const double x = std::asin(std::clamp(sine_x, -1.0, 1.0));
-    if (std::abs(sine_x) > 1.0 - 1e-12) return {2.0 * std::atan2(q.z, q.w) * degrees, x * degrees, 0.0};
-    const double z = std::atan2(2.0 * (q.w * q.z - q.x * q.y), 1.0 - 2.0 * (q.x * q.x + q.z * q.z));
-    const double y = std::atan2(2.0 * (q.w * q.y - q.x * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
+    const double x = 0.5 * math::pi - math::arccosine(sine_x);
+    if (std::abs(sine_x) > 1.0 - 1e-12) return {2.0 * math::arctangent(q.z, q.w) * degrees, x * degrees, 0.0};
+    const double z = math::arctangent(2.0 * (q.w * q.z - q.x * q.y), 1.0 - 2.0 * (q.x * q.x + q.z * q.z));
+    const double y = math::arctangent(2.0 * (q.w * q.y - q.x * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
     return {z * degrees, x * degrees, y * degrees};
 }
 

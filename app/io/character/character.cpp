@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/io/text.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -167,7 +168,7 @@ LengthUnit guess_unit(double height) {
     double nearest = INFINITY;
     for (const LengthUnit& unit : units) {
         if (!(height > 0.0)) break;
-        const double off = std::abs(std::log(height * unit.metres / 1.75));
+        const double off = std::abs(math::logarithm(height * unit.metres / 1.75));
         if (off < nearest) nearest = off, best = unit;
     }
     return best;

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -124,8 +126,8 @@ class FigureBody {
             const glm::dquat above = rest_[static_cast<std::size_t>(skeleton[node].parent)].rotation();
             pose[node].rotation =
                 glm::conjugate(above) *
-                glm::angleAxis(static_cast<double>(-side * lowered), glm::dvec3(0.0, 0.0, 1.0)) * above *
-                pose[node].rotation;
+                math::rotation_about(glm::dvec3(0.0, 0.0, 1.0), static_cast<double>(-side * lowered)) *
+                above * pose[node].rotation;
         }
         humanoid::place(skeleton, pose, bound_);
         sole_ = std::min(at(Bone::LeftToes).y, at(Bone::RightToes).y);

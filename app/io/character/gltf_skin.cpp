@@ -10,6 +10,7 @@
 
 #include "app/io/character/gltf_bytes.hpp"
 #include "app/io/text.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -63,7 +64,7 @@ struct TextureTransform {
     }
     /// Counterclockwise as seen in the picture, where v points down.
     glm::dvec2 applied(double u, double v) const {
-        const double c = std::cos(rotation), s = std::sin(rotation), x = scale.x * u, y = scale.y * v;
+        const double c = math::cosine(rotation), s = math::sine(rotation), x = scale.x * u, y = scale.y * v;
         return {offset.x + c * x + s * y, offset.y - s * x + c * y};
     }
 };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/io/text.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -294,13 +295,13 @@ SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3&
     const double inside = half_sum * half_sum - product;
     double squared = 0.0, mean = 0.0;
     if (inside < 0.0) {
-        const double decay = -0.5 * std::log(std::max(product, smallest));
-        const double turn = std::acos(std::clamp(half_sum / std::sqrt(product), -1.0, 1.0));
+        const double decay = -0.5 * math::logarithm(std::max(product, smallest));
+        const double turn = math::arccosine(half_sum / std::sqrt(product));
         squared = decay * decay + turn * turn;
         mean = decay;
     } else {
-        const double slow = -std::log(std::clamp(half_sum + std::sqrt(inside), smallest, 1.0)),
-                     fast = -std::log(std::clamp(half_sum - std::sqrt(inside), smallest, 1.0));
+        const double slow = -math::logarithm(std::clamp(half_sum + std::sqrt(inside), smallest, 1.0)),
+                     fast = -math::logarithm(std::clamp(half_sum - std::sqrt(inside), smallest, 1.0));
         squared = slow * fast;
         mean = 0.5 * (slow + fast);
     }

@@ -8,6 +8,7 @@
 
 #include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_file.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -71,7 +72,8 @@ Json linear_colour(const glm::vec4& shown) {
     Json colour = Json::array();
     for (int i = 0; i < 3; ++i)
         colour.push_back(shown[i] <= 0.04045f ? shown[i] / 12.92f
-                                              : std::pow((shown[i] + 0.055f) / 1.055f, 2.4f));
+                                              : static_cast<float>(math::exponential(
+                                                    2.4 * math::logarithm((shown[i] + 0.055) / 1.055))));
     colour.push_back(shown[3]);
     return colour;
 }

@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -255,7 +257,11 @@ glm::vec3 shown_colour(const glm::vec3& linear) {
     glm::vec3 shown;
     for (int i = 0; i < 3; ++i) {
         const float c = std::clamp(linear[i], 0.0f, 1.0f);
-        shown[i] = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+        shown[i] =
+            c <= 0.0031308f
+                ? 12.92f * c
+                : static_cast<float>(
+                      1.055 * math::exponential(math::logarithm(static_cast<double>(c)) / 2.4) - 0.055);
     }
     return shown;
 }
@@ -329,7 +335,8 @@ std::vector<AffineRows> TwistSpread::matrices(const Skin& skin, std::span<const 
             rows.push_back(rows[copy.joint]);
             continue;
         }
-        const Placement turned{glm::mat3_cast(glm::angleAxis(by, glm::normalize(bone.way))), glm::dvec3(0.0)};
+        const Placement turned{glm::mat3_cast(math::rotation_about(glm::normalize(bone.way), by)),
+                               glm::dvec3(0.0)};
         rows.push_back(
             rows_of(placements[bone.node] * turned * (*back * (placements[joint.node] * joint.from_bind))));
     }

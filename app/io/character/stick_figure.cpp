@@ -6,6 +6,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -59,13 +61,13 @@ double smooth(double from, double to, double x) {
     return u * u * (3.0 - 2.0 * u);
 }
 dquat about_x(double degrees) {
-    return glm::angleAxis(degrees * pi / 180.0, dvec3(1, 0, 0));
+    return math::rotation_about(dvec3(1, 0, 0), degrees * pi / 180.0);
 }
 dquat about_y(double degrees) {
-    return glm::angleAxis(degrees * pi / 180.0, dvec3(0, 1, 0));
+    return math::rotation_about(dvec3(0, 1, 0), degrees * pi / 180.0);
 }
 dquat about_z(double degrees) {
-    return glm::angleAxis(degrees * pi / 180.0, dvec3(0, 0, 1));
+    return math::rotation_about(dvec3(0, 0, 1), degrees * pi / 180.0);
 }
 /// The minimal rotation between two directions.
 dquat from_to(const dvec3& from, const dvec3& to) {
@@ -167,7 +169,8 @@ FootPose foot_at(double phase) {
             const double pitch = strike_pitch * (1.0 - smooth(0.0, flat, at));
             return {turned(heel, pitch), pitch, 0.0};
         }
-        const double pitch = off_pitch * std::pow(std::max(at - heel_off, 0.0) / (toe_off - heel_off), 2.0);
+        const double lifted = std::max(at - heel_off, 0.0) / (toe_off - heel_off),
+                     pitch = off_pitch * lifted * lifted;
         return {turned(ball, pitch), pitch, -pitch};
     };
     FootPose pose;
@@ -216,10 +219,10 @@ humanoid::Clip make_walk(const Skeleton& skeleton) {
         const double phase = static_cast<double>(frame) / frames, turn = 2.0 * pi * phase;
         Pose pose(skeleton);
         rig::Transform& hips = pose.local("Hips");
-        hips.translation = {0.018 * std::sin(turn), 0.938 - 0.012 * std::cos(2.0 * turn),
+        hips.translation = {0.018 * math::sine(turn), 0.938 - 0.012 * math::cosine(2.0 * turn),
                             walk_speed * walk_period * phase};
-        const double yaw = 6.0 * std::cos(turn);
-        hips.rotation = about_y(-yaw) * about_z(2.0 * std::sin(turn));
+        const double yaw = 6.0 * math::cosine(turn);
+        hips.rotation = about_y(-yaw) * about_z(2.0 * math::sine(turn));
         pose.turn("Spine", about_y(-0.3 * yaw) * about_x(3.0));
         pose.turn("Chest", about_y(0.4 * yaw) * about_x(3.0));
         pose.turn("UpperChest", about_y(yaw) * about_x(3.0));
@@ -227,8 +230,8 @@ humanoid::Clip make_walk(const Skeleton& skeleton) {
         pose.turn("Head", dquat(1, 0, 0, 0));
         pose_leg(pose, "Left", 1.0, phase, 0.0);
         pose_leg(pose, "Right", -1.0, phase, 0.5);
-        pose_walking_arm(pose, "Left", 1.0, -std::cos(turn));
-        pose_walking_arm(pose, "Right", -1.0, std::cos(turn));
+        pose_walking_arm(pose, "Left", 1.0, -math::cosine(turn));
+        pose_walking_arm(pose, "Right", -1.0, math::cosine(turn));
         recorder.add(frame / frame_rate, pose.locals());
     }
     return recorder.clip();

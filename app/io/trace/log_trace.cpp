@@ -296,7 +296,8 @@ class LogTrace final : public RawTrace {
             std::vector<double> lengths;
             for (; bone < joints.size(); bone += count) {
                 const auto &a = joints[bone - 1]->numbers, &b = joints[bone]->numbers;
-                const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+                const double length =
+                    glm::distance(glm::dvec3(a[0], a[1], a[2]), glm::dvec3(b[0], b[1], b[2]));
                 if (std::isfinite(length)) lengths.push_back(length);
             }
             std::ranges::sort(lengths);

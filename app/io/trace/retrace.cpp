@@ -11,6 +11,7 @@
 
 #include "app/io/solver_text.hpp"
 #include "app/io/text.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -168,7 +169,7 @@ std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame&
         for (int i = 0; i < ways; ++i) {
             const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
             const glm::vec3 by =
-                0.5f * line + 0.5f * attempts.reach() * (std::cos(angle) * u + std::sin(angle) * v);
+                0.5f * line + 0.5f * attempts.reach() * (math::cosine(angle) * u + math::sine(angle) * v);
             if (attempts.prevents(with(by))) return found(by);
         }
         return std::nullopt;
@@ -177,7 +178,7 @@ std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame&
     for (const float share : shares) {
         for (int i = 0; i < ways; ++i) {
             const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
-            const glm::vec3 way = std::cos(angle) * u + std::sin(angle) * v;
+            const glm::vec3 way = math::cosine(angle) * u + math::sine(angle) * v;
             if (!attempts.prevents(with(share * attempts.reach() * way))) continue;
             float low = below, high = share;
             for (int half = 0; half < halvings; ++half) {

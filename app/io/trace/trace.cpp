@@ -122,7 +122,9 @@ double Rounding::of(double value) const {
             if (known(*below) && below->second.decimals < all_)
                 decimals = std::min(all_, below->second.decimals - (size_of(value) - below->first));
     }
-    return 0.5 * std::pow(10.0, -decimals);
+    double scale = 1.0;
+    for (int i = std::abs(decimals); i > 0; --i) scale *= 10.0;
+    return decimals > 0 ? 0.5 / scale : 0.5 * scale;
 }
 
 bool TraceReader::next_raw(RawFrame& frame) {

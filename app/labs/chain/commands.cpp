@@ -11,6 +11,7 @@
 #include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/view/assets.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -329,9 +330,9 @@ Segments tentacle(std::size_t count) {
     const float scale = 7.0f / static_cast<float>(count);
     return placed({0, 0, 0}, count, [=](std::size_t i) {
         const float t = part_of(i, count);
-        const float lean = 1.1f * std::sin(6.0f * t) * (0.3f + 0.7f * t);
+        const float lean = 1.1f * math::sine(6.0f * t) * (0.3f + 0.7f * t);
         return scale * (1.5f - 0.9f * t) *
-               glm::vec3(std::sin(lean), std::cos(lean), 0.35f * std::sin(4.0f * t));
+               glm::vec3(math::sine(lean), math::cosine(lean), 0.35f * math::sine(4.0f * t));
     });
 }
 
@@ -339,8 +340,8 @@ Segments tentacle(std::size_t count) {
 Segments wave(std::size_t count) {
     const float step = 9.0f / static_cast<float>(count);
     return placed({-4.5f, 0.1f, 0}, count, [=](std::size_t i) {
-        const float lean = 1.0f * std::cos(15.0f * part_of(i, count));
-        return step * glm::vec3(std::cos(lean), 0.0f, std::sin(lean));
+        const float lean = 1.0f * math::cosine(15.0f * part_of(i, count));
+        return step * glm::vec3(math::cosine(lean), 0.0f, math::sine(lean));
     });
 }
 
@@ -349,7 +350,7 @@ Segments coil(std::size_t count) {
     const float step = 26.0f / static_cast<float>(count);
     return placed({2, 0.1f, 0}, count, [=](std::size_t i) {
         const float turn = 13.0f * part_of(i, count);
-        return step * glm::vec3(-std::sin(turn), 0.14f, std::cos(turn));
+        return step * glm::vec3(-math::sine(turn), 0.14f, math::cosine(turn));
     });
 }
 

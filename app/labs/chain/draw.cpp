@@ -18,6 +18,7 @@
 #include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/widgets/icons.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -393,7 +394,7 @@ void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 acros
     glm::vec3 from = centre + radius * across;
     for (int i = 1; i <= sides; ++i) {
         const float angle = glm::two_pi<float>() * static_cast<float>(i) / sides;
-        const glm::vec3 to = centre + radius * (std::cos(angle) * across + std::sin(angle) * up);
+        const glm::vec3 to = centre + radius * (math::cosine(angle) * across + math::sine(angle) * up);
         list.line(from, to, pixels, colour);
         from = to;
     }

@@ -17,6 +17,7 @@
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -37,7 +38,7 @@ void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles
 
 /// A rotation about the plane's normal for the angle of a limit's end. Only its change in a drag matters.
 glm::quat limit_turn(glm::vec3 normal, float angle) {
-    return glm::angleAxis(angle, normal) * least_rotation({0.0f, 0.0f, 1.0f}, normal);
+    return math::rotation_about(normal, angle) * least_rotation({0.0f, 0.0f, 1.0f}, normal);
 }
 
 /// Drags a limit's end to whole degrees, up to the other end and short of a full turn, which is no limit.
@@ -47,7 +48,7 @@ void drag_limit(const ChainPart& part, const LimitEnd& end, const glm::quat& to,
     const ik::AngleLimit limit = angle_limit_of(*part.reach.plane, end.joint);
     const float now = end.max ? limit.max : limit.min, other = glm::degrees(end.max ? limit.min : limit.max);
     const glm::quat turn = to * glm::conjugate(limit_turn(normal, now));
-    const float by = 2.0f * std::atan2(glm::dot(glm::vec3(turn.x, turn.y, turn.z), normal), turn.w);
+    const float by = 2.0f * math::arctangent(glm::dot(glm::vec3(turn.x, turn.y, turn.z), normal), turn.w);
     const float angle = now + std::remainder(by, glm::two_pi<float>());
     const float low =
         end.max ? std::min(std::round(other) + 1.0f, 180.0f) : std::max(other - 359.0f, -180.0f);
@@ -249,7 +250,7 @@ std::vector<ik::AngleLimit> angle_limits(const Section& section, const Chain& ch
     const auto from = plane.limits.begin() + static_cast<std::ptrdiff_t>(section.first);
     std::vector<ik::AngleLimit> limits(from, from + static_cast<std::ptrdiff_t>(section.count));
     const glm::vec3 base = ik::base_direction(plane.normal, chain.default_direction());
-    const float turned = glm::atan(glm::dot(glm::normalize(plane.normal), glm::cross(base, section.base)),
+    const float turned = math::arctangent(glm::dot(glm::normalize(plane.normal), glm::cross(base, section.base)),
                                    glm::dot(base, section.base));
     constexpr float half_turn = glm::pi<float>();
     for (ik::AngleLimit& limit : limits) {

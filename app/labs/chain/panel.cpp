@@ -22,6 +22,7 @@
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
 #include "app/widgets/tooltip.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -94,8 +95,8 @@ void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Em
 /// Turns the camera square on to the plane, with the normal towards the eye.
 void look_at_plane(const ChainPlane& plane, Emit& emit) {
     const glm::vec3 normal = glm::normalize(plane.normal);
-    emit("camera.set", {{"yaw_deg", glm::degrees(std::atan2(normal.x, normal.z))},
-                        {"pitch_deg", glm::degrees(std::asin(std::clamp(normal.y, -1.0f, 1.0f)))},
+    emit("camera.set", {{"yaw_deg", glm::degrees(math::arctangent(normal.x, normal.z))},
+                        {"pitch_deg", 90.0 - glm::degrees(math::arccosine(static_cast<double>(normal.y)))},
                         {"orthographic", true}});
 }
 

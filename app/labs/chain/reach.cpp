@@ -225,7 +225,7 @@ glm::quat bone_rotation(const ReachSettings& settings, const Chain& chain, std::
 void widen(float& up, float& left, float by_up, float by_left) {
     constexpr float min_half_axis = 1e-2f;  // a half-axis of 0 cannot be scaled
     const float wide_up = std::max(up, min_half_axis), wide_left = std::max(left, min_half_axis);
-    const float outside = std::hypot(by_up / wide_up, by_left / wide_left);
+    const float outside = glm::length(glm::vec2(by_up / wide_up, by_left / wide_left));
     if (outside <= 1.0f) return;
     constexpr float rounding = 1.0001f, half_turn = glm::pi<float>();
     up = std::min(rounding * outside * wide_up, half_turn);

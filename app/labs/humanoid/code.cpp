@@ -34,9 +34,9 @@ constexpr const char* hills_text =
     for (int row = 0; row < 161; ++row)
         for (int column = 0; column < 161; ++column) {
             const double x = -20.0 + 0.25 * column, z = -20.0 + 0.25 * row;
-            const double flat = std::clamp(std::hypot(x, z) - 0.3, 0.0, 1.0);
-            field.heights.push_back(flat * (0.10 * std::sin(1.3 * z + 0.4 * x) + 0.06 * std::sin(1.9 * x - 0.5 * z) +
-                                            0.03 * std::sin(3.1 * z + 1.1)));
+            const double flat = std::clamp(std::sqrt(x * x + z * z) - 0.3, 0.0, 1.0);
+            field.heights.push_back(flat * (0.10 * math::sine(1.3 * z + 0.4 * x) + 0.06 * math::sine(1.9 * x - 0.5 * z) +
+                                            0.03 * math::sine(3.1 * z + 1.1)));
         }
     const humanoid::Ground ground = *humanoid::Ground::terrain(field);
 )";
@@ -110,6 +110,7 @@ class HumanoidProgram {
         line("#include <cstdio>");
         line("#include <iterator>");
         if (!part_.curves.empty()) line("#include <tendril/humanoid/bent_chain.hpp>");
+        if (hilly()) line("#include <tendril/elementary.hpp>");
         if (body_on()) line("#include <tendril/humanoid/body.hpp>");
         if (uses_map()) line("#include <tendril/humanoid/bone_map.hpp>");
         if (feet_on()) line("#include <tendril/humanoid/feet.hpp>");

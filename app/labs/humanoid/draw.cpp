@@ -13,6 +13,7 @@
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -181,7 +182,7 @@ class Drawing {
         const auto point = [&](int i) {
             const float angle = glm::two_pi<float>() * static_cast<float>(i) / steps;
             return (i <= steps / 2 ? to : from) +
-                   radius * (std::cos(angle) * aside + std::sin(angle) * along);
+                   radius * (math::cosine(angle) * aside + math::sine(angle) * along);
         };
         const glm::vec4 paint(view_.palette.neutral, 0.7f);
         for (int i = 0; i < steps; ++i) list_.line(point(i), point(i + 1), px(1.0f), paint);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 
 template <>
@@ -37,7 +39,8 @@ std::span<const FieldText> field_texts<FlipRule>() {
 
 double turn_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat between = glm::conjugate(a) * b;
-    return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
+    return 2.0 *
+           math::arctangent(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
 }
 
 float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b) {

@@ -5,6 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 
 LimitShape::LimitShape(const ik::Limit& limit, glm::vec3 rest, glm::quat parent)
@@ -17,7 +19,7 @@ LimitShape::LimitShape(const ik::Limit& limit, glm::vec3 rest, glm::quat parent)
 glm::quat LimitShape::swing(float up, float left) const {
     const glm::vec3 swing = up_axis_ * up + left_axis_ * left;
     const float angle = glm::length(swing);
-    return angle < 1e-7f ? glm::quat(1, 0, 0, 0) : glm::angleAxis(angle, swing / angle);
+    return angle < 1e-7f ? glm::quat(1, 0, 0, 0) : math::rotation_about(swing / angle, angle);
 }
 
 glm::vec3 LimitShape::direction(float up, float left) const {
@@ -33,7 +35,7 @@ std::vector<glm::vec3> LimitShape::outline(int steps) const {
             continue;
         }
         const float phi = glm::two_pi<float>() * share;
-        const float up = std::sin(phi), left = std::cos(phi);
+        const float up = math::sine(phi), left = math::cosine(phi);
         points.push_back(direction(up * (up > 0.0f ? limit_.up : limit_.down),
                                    left * (left > 0.0f ? limit_.left : limit_.right)));
     }
@@ -41,7 +43,8 @@ std::vector<glm::vec3> LimitShape::outline(int steps) const {
 }
 
 glm::vec3 LimitShape::side(const ik::JointAngles& angles) const {
-    return parent_ * (swing(angles.up, angles.left) * (glm::angleAxis(angles.twist, rest_) * left_axis_));
+    return parent_ *
+           (swing(angles.up, angles.left) * (math::rotation_about(rest_, angles.twist) * left_axis_));
 }
 
 namespace {
@@ -127,11 +130,11 @@ JointTurn joint_turn(const glm::dquat& turn, const glm::dvec3& along) {
     const glm::dvec3 sines(q.x, q.y, q.z);
     const double about = glm::dot(sines, glm::normalize(along));
     const double across = std::sqrt(std::max(0.0, glm::dot(sines, sines) - about * about));
-    const double kept = std::hypot(q.w, about);
+    const double kept = std::sqrt(q.w * q.w + about * about);
     JointTurn told;
-    told.swing = glm::degrees(2.0 * std::atan2(across, kept));
-    told.twist = kept > 1e-12 * glm::length(q) ? glm::degrees(2.0 * std::atan2(about, q.w)) : 0.0;
-    told.angle = glm::degrees(2.0 * std::atan2(glm::length(sines), q.w));
+    told.swing = glm::degrees(2.0 * math::arctangent(across, kept));
+    told.twist = kept > 1e-12 * glm::length(q) ? glm::degrees(2.0 * math::arctangent(about, q.w)) : 0.0;
+    told.angle = glm::degrees(2.0 * math::arctangent(glm::length(sines), q.w));
     return told;
 }
 

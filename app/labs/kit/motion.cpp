@@ -10,6 +10,7 @@
 #include "app/document/workspace.hpp"
 #include "app/io/json_complete.hpp"
 #include "app/io/json_place.hpp"
+#include "tendril/elementary.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept {
@@ -61,7 +62,7 @@ std::uint32_t ticks_per_round(const Motion& motion) {
 glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
     const std::uint32_t round = ticks_per_round(motion);
     const float angle = glm::two_pi<float>() * static_cast<float>(ticks % round) / static_cast<float>(round);
-    const float c = std::cos(angle), s = std::sin(angle);
+    const float c = math::cosine(angle), s = math::sine(angle);
     switch (motion.path) {
         case Motion::Path::Still:
             break;

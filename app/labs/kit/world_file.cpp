@@ -14,6 +14,7 @@
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/view/surfaces.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -327,8 +328,10 @@ glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Pal
 
 glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
-    const float share =
-        std::log(std::max(size, min_strain) / min_strain) / std::log(full_strain / min_strain);
+    const auto doublings = [](float above) {
+        return math::logarithm(static_cast<double>(above / min_strain));
+    };
+    const auto share = static_cast<float>(doublings(std::max(size, min_strain)) / doublings(full_strain));
     // Start from a grey lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));

@@ -9,6 +9,7 @@
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -221,7 +222,7 @@ class LinkageDrawing {
         const auto direction = [&](std::size_t bar) {
             const auto& points = sketch.bars[bar].points;
             const glm::vec3 along = at(points[0] == motor.point ? points[1] : points[0]) - about;
-            return std::atan2(along.y, along.x);
+            return math::arctangent(along.y, along.x);
         };
         constexpr int sides = 32;
         const float radius = px(26.0f) * view_.camera.metres_per_pixel(about),
@@ -230,7 +231,7 @@ class LinkageDrawing {
         if (angle < 0.0f) angle += glm::radians(360.0f);
         const auto end = [&](int i) {
             const float turned = from + angle * static_cast<float>(i) / sides;
-            return about + radius * glm::vec3(std::cos(turned), std::sin(turned), 0.0f);
+            return about + radius * glm::vec3(math::cosine(turned), math::sine(turned), 0.0f);
         };
         for (int i = 0; i < sides; ++i) list_.line(end(i), end(i + 1), px(2.0f), colour);
     }

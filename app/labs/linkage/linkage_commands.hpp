@@ -9,6 +9,7 @@
 #include "app/fields/fields.hpp"
 #include "app/io/json_place.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -22,7 +23,7 @@ inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
 }
 /// The direction of a sliding joint's line.
 inline glm::dvec2 guide_direction(const ik::SketchPoint& point) {
-    return {std::cos(point.guide), std::sin(point.guide)};
+    return {math::cosine(point.guide), math::sine(point.guide)};
 }
 /// That line's field, for the command linkage.guide and the inspector.
 std::span<const Field> guide_fields();

@@ -12,6 +12,7 @@
 #include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -24,7 +25,7 @@ glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
 
 /// Degrees, 0 to 180.
 double between(const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::degrees(std::atan2(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
+    return glm::degrees(math::arctangent(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
 }
 
 double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
@@ -361,7 +362,7 @@ std::optional<DeadPoint> dead_point(const LinkagePart& part, LinkageRuntime& run
     if (!driver && !part.drives.empty()) driver = part.linkage().find_link(part.drives.front().joint);
     if (!driver) return std::nullopt;
     const BalancedBodies bodies(part, *driver, runtime.solver(part.shape));
-    if (bodies.loose() > std::sin(glm::radians(within))) return std::nullopt;
+    if (bodies.loose() > math::sine(glm::radians(within))) return std::nullopt;
     if (auto found = bodies.bars_in_line()) return found;
     return bodies.forces_that_meet();
 }

@@ -10,6 +10,7 @@
 #include "app/io/text.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -317,7 +318,7 @@ bool is_hinge(const ik::Link& link) {
 /// The angle of a bar's direction, from its first joint to its second.
 double bar_direction(const ik::SketchBar& bar, auto at) {
     const glm::dvec2 way = glm::dvec2(at(bar.points[1])) - glm::dvec2(at(bar.points[0]));
-    return std::atan2(way.y, way.x);
+    return math::arctangent(way.y, way.x);
 }
 
 /// The angle from a bar as drawn in the new shape to the same bar in the old part's pose. None if the old

@@ -11,6 +11,7 @@
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/view/surfaces.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -316,7 +317,7 @@ class ControlDrawing {
             for (int k = 0; k < sides; ++k) {
                 const auto on = [&](int step) {
                     const float angle = glm::two_pi<float>() * static_cast<float>(step) / sides;
-                    return at_ + std::cos(angle) * u + std::sin(angle) * v;
+                    return at_ + math::cosine(angle) * u + math::sine(angle) * v;
                 };
                 Stroke& stroke = p_.line(on(k), on(k + 1), lit ? 4.0f : 2.5f, paint, ring);
                 stroke.rank = 2;

@@ -18,6 +18,7 @@
 #include "app/labs/rig/take.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 #include "app/view/surfaces.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -443,7 +444,9 @@ void draw_blob(const View& view, DrawList& list, const rig::Transform& pose, con
                 wide = 1.0f / std::sqrt(tall);  // preserves the volume
     const auto shape = [&](glm::vec3 p) {
         const float off = (p.y + 0.25f) / 0.45f;
-        const float out = wide * (1.0f + 0.65f * bulge * std::exp(-off * off));
+        const float out =
+            wide *
+            (1.0f + 0.65f * bulge * static_cast<float>(math::exponential(static_cast<double>(-off * off))));
         return placed(pose, blob_radius * glm::vec3(out * p.x, tall * p.y, out * p.z));
     };
     globe(list, view.camera, shape, glm::mix(of_hue(curve_value(part, "hue")), tint, tinted));

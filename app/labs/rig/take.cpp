@@ -9,6 +9,7 @@
 
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rig_lab.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -271,7 +272,7 @@ struct Step {
     glm::dvec3 at{0.0}, along{0.0, 0.0, 1.0};
 };
 Step step_at(Path path, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double c = math::cosine(angle), s = math::sine(angle);
     switch (path) {
         case Path::Still:
             break;
@@ -303,8 +304,8 @@ rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks) 
     rig::Transform to{at, pose->rotation, pose->scale};
     if (walk.turn) {
         const glm::dvec3 along = step_at(walk.motion.path, angle_after(walk.motion, ticks)).along;
-        const double half = 0.5 * std::atan2(along.x, along.z);
-        to.rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
+        const double half = 0.5 * math::arctangent(along.x, along.z);
+        to.rotation = glm::dquat(math::cosine(half), 0.0, math::sine(half), 0.0);
     }
     return to;
 }

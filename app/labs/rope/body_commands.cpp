@@ -17,6 +17,7 @@
 #include "app/labs/rope/rope_part.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fields.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -339,7 +340,7 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed) {
     };
     // Search along the nearest axes of the grid, so that scenes stay tidy.
     const float yaw = glm::half_pi<float>() * std::round(workspace.camera.yaw / glm::half_pi<float>());
-    const glm::vec3 right(std::round(std::cos(yaw)), 0.0f, -std::round(std::sin(yaw)));
+    const glm::vec3 right(std::round(math::cosine(yaw)), 0.0f, -std::round(math::sine(yaw)));
     const glm::vec3 behind(right.z, 0.0f, -right.x);
     const glm::vec3 middle = workspace.camera.target;
     for (int i = 0; i < most; ++i) {

@@ -65,9 +65,9 @@ class RopeProgram {
         line("//");
         line("// CMake: find_package(tendril REQUIRED)");
         line("//        target_link_libraries(your_program PRIVATE tendril::core)");
-        if (!part_.swings.empty()) line("#include <cmath>");
         line("#include <cstdio>");
         line("#include <iterator>");
+        if (!part_.swings.empty()) line("#include <tendril/elementary.hpp>");
         line("#include <tendril/rope/world.hpp>");
         line("");
         line("using namespace tendril;");
@@ -201,7 +201,7 @@ class RopeProgram {
         say("                       float period) {");
         say("    const double rounds = time / static_cast<double>(period);");
         say("    const double angle = 6.283185307179586 * (rounds - std::floor(rounds));");
-        say("    const glm::vec3 to = middle + static_cast<float>(std::sin(angle)) * by;");
+        say("    const glm::vec3 to = middle + static_cast<float>(math::sine(angle)) * by;");
         say("    const rope::ColliderId id = world.state().colliders[collider].id;");
         say("    if (const Result moved = world.move_collider(id, to, world.pending() + dt); !moved)");
         say("        std::puts(moved.message());");

@@ -11,6 +11,7 @@
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/view/surfaces.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -146,8 +147,8 @@ class Drawing {
             const double lightest = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
             for (std::size_t i = body.first; i < body.first + body.count; ++i) {
                 if (mass[i] < heavy_from * lightest) continue;
-                const auto ball =
-                    static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
+                const auto ball = static_cast<float>(
+                    math::exponential(math::logarithm(0.75 * mass[i] / (math::pi * weight_density)) / 3.0));
                 if (ball <= radius(body)) continue;
                 const PickId pick = particle_pick(i);
                 const glm::vec3 colour = lit(pick) ? view_.palette.accent : colours_[i];

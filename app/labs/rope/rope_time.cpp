@@ -18,6 +18,7 @@
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_part.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -176,7 +177,8 @@ std::uint64_t work_of_tied_cloth(const rope::State& state) {
         if (body.kind != rope::Body::Kind::Cloth) continue;
         const auto ties =
             static_cast<std::size_t>(std::count_if(state.ties.begin(), state.ties.end(), holds));
-        if (ties * ties > 4 * body.count) work += 100.0 * std::pow(static_cast<double>(body.count), 1.5);
+        const auto count = static_cast<double>(body.count);
+        if (ties * ties > 4 * body.count) work += 100.0 * count * std::sqrt(count);
     }
     return static_cast<std::uint64_t>(work);
 }
@@ -215,12 +217,13 @@ double jitter_frame(const Jitter& jitter, std::uint32_t number) {
     const double even = jitter.rate == 60.0f ? tick_seconds : 1.0 / static_cast<double>(jitter.rate);
     const double where = 2.0 * shuffled(number) - 1.0;
     const double end = where < 0.0 ? min_jitter_frame : max_jitter_frame;
-    const double frame = even * std::pow(end / even, std::abs(where) * static_cast<double>(jitter.dial));
+    const double frame = even * math::exponential(std::abs(where) * static_cast<double>(jitter.dial) *
+                                                  math::logarithm(end / even));
     return std::clamp(frame, min_jitter_frame, max_jitter_frame);
 }
 
 glm::vec3 swing_point(const Swing& swing, double time) {
-    return swing.middle + static_cast<float>(std::sin(round_angle(time, swing.period))) * swing.swing;
+    return swing.middle + static_cast<float>(math::sine(round_angle(time, swing.period))) * swing.swing;
 }
 
 void require(const Swing& swing) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -59,30 +61,33 @@ double Dimension::value(double at) const {
         case Scale::Even:
             return low + share * (high - low);
         case Scale::Ratio:
-            return low * std::pow(high / low, share);
+            return low * math::exponential(share * math::logarithm(high / low));
         case Scale::Cube:
             return low + share * share * share * (high - low);
         case Scale::Fifth:
-            return low + std::pow(share, 5.0) * (high - low);
+            return low + share * share * share * share * share * (high - low);
     }
     return low;
 }
 
 double Dimension::at(double value) const {
     if (!(high > low)) return 0.0;
+    const auto root = [&](double degree) {
+        return math::exponential(math::logarithm(std::max(value - low, 0.0) / (high - low)) / degree);
+    };
     double share = 0.0;
     switch (scale) {
         case Scale::Even:
             share = (value - low) / (high - low);
             break;
         case Scale::Ratio:
-            share = std::log(std::max(value, low) / low) / std::log(high / low);
+            share = math::logarithm(std::max(value, low) / low) / math::logarithm(high / low);
             break;
         case Scale::Cube:
-            share = std::cbrt((value - low) / (high - low));
+            share = root(3.0);
             break;
         case Scale::Fifth:
-            share = std::pow(std::max(value - low, 0.0) / (high - low), 0.2);
+            share = root(5.0);
             break;
     }
     return std::clamp(share, 0.0, 1.0);
@@ -143,7 +148,8 @@ namespace {
 /// `count` values from `low` to `high` in geometric progression.
 std::vector<double> by_ratio(double low, double high, int count) {
     std::vector<double> values;
-    for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, (i + 0.5) / count));
+    for (int i = 0; i < count; ++i)
+        values.push_back(low * math::exponential((i + 0.5) / count * math::logarithm(high / low)));
     return values;
 }
 

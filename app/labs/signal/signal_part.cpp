@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "app/document/command.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -189,7 +190,7 @@ double input_at(const SignalInput& input, double time) {
         case InputKind::Square:
             return phase(time, input.period) < 0.5 ? input.amplitude : -input.amplitude;
         case InputKind::Sine:
-            return input.amplitude * std::sin(2.0 * std::numbers::pi * phase(time, input.period));
+            return input.amplitude * math::sine(2.0 * std::numbers::pi * phase(time, input.period));
         case InputKind::Noise:
             return input.amplitude * noise(time, input.period);
         case InputKind::Recorded:

@@ -40,6 +40,7 @@
 // name, such as {.pole = elbow}, survive new members.
 #pragma once
 
+#include "tendril/elementary.hpp"
 #include "tendril/humanoid/attach.hpp"
 #include "tendril/humanoid/balance.hpp"
 #include "tendril/humanoid/bent_chain.hpp"

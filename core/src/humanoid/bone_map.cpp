@@ -8,8 +8,8 @@
 #include "humanoid/input.hpp"
 #include "humanoid/names.hpp"
 #include "humanoid/shape.hpp"
-#include "math/elementary.hpp"
 #include "rig/math.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid {
 namespace {

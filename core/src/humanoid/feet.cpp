@@ -2,8 +2,8 @@
 
 #include "humanoid/feet.hpp"
 #include "humanoid/input.hpp"
-#include "math/elementary.hpp"
 #include "rig/checks.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid {
 namespace {

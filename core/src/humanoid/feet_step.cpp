@@ -5,7 +5,7 @@
 
 #include "humanoid/feet_step.hpp"
 #include "humanoid/input.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid {
 namespace detail {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "math/elementary.hpp"
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid::detail {
 

@@ -1,8 +1,10 @@
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace tendril::math {
@@ -195,6 +197,11 @@ double angle_of(double y, double x) {
 
 }  // namespace
 
+double exponential(double x) noexcept {
+    if (x > 709.0) return std::numeric_limits<double>::infinity();
+    return std::isnan(x) ? x : decay(-x);
+}
+
 double decay(double x) noexcept {
     if (!(x < 708.0)) return 0.0;
     // e^-x = 2^-(n / 8) e^-r with |r| <= ln 2 / 16; e^-r by its power series. The products of the first part
@@ -215,6 +222,28 @@ double decay(double x) noexcept {
     const auto [power, rest] = powers[eighths & 7];
     return (power + (power * less + rest)) *
            std::bit_cast<double>(static_cast<std::uint64_t>(1023 - (eighths >> 3)) << 52);
+}
+
+double logarithm(double x) noexcept {
+    constexpr double infinity = std::numeric_limits<double>::infinity(),
+                     least = std::numeric_limits<double>::min();
+    if (!(x >= least && x < infinity)) {
+        if (x > 0.0 && x < least) return logarithm(x * 0x1p54) - 54.0 * ln2;
+        return x == infinity ? x : x == 0.0 ? -infinity : std::numeric_limits<double>::quiet_NaN();
+    }
+    // ln x = n ln 2 + ln(1 + f), with 1 + f from sqrt(1/2) to sqrt(2); ln(1 + f) = 2 artanh(f / (2 + f)) by
+    // its power series. f and n times the first part of ln 2 are exact.
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    constexpr auto sqrt_half = std::bit_cast<std::uint64_t>(std::numbers::sqrt2 / 2);
+    const std::uint64_t above = bits - sqrt_half;
+    const auto powers = static_cast<std::int64_t>(above) >> 52;
+    const double n = static_cast<double>(powers);
+    const double f = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(powers) << 52)) - 1.0;
+    const double s = f / (2.0 + f), half = 0.5 * f * f, z = s * s, zz = z * z, z4 = zz * zz;
+    const double low = (2.0 / 3 + z * (2.0 / 5)) + zz * (2.0 / 7 + z * (2.0 / 9));
+    const double high = (2.0 / 11 + z * (2.0 / 13)) + zz * (2.0 / 15 + z * (2.0 / 17));
+    const double series = z * (low + z4 * (high + z4 * (2.0 / 19 + z * (2.0 / 21))));
+    return n * 0x1.62e42fee00000p-1 + (f - (half - (s * (half + series) + n * 0x1.a39ef35793c76p-33)));
 }
 
 SineCosine sine_cosine(double radians) noexcept {
@@ -246,6 +275,20 @@ double arctangent(double y, double x) noexcept {
 }
 float arctangent(float y, float x) noexcept {
     return static_cast<float>(angle_of<false>(y, x));
+}
+
+double arccosine(double cosine) noexcept {
+    const double held = cosine < -1.0 ? -1.0 : cosine > 1.0 ? 1.0 : cosine;
+    return arctangent(std::sqrt((1.0 - held) * (1.0 + held)), held);
+}
+
+glm::quat rotation_about(const glm::vec3& axis, float radians) noexcept {
+    const float s = sine(0.5f * radians);
+    return {cosine(0.5f * radians), axis.x * s, axis.y * s, axis.z * s};
+}
+glm::dquat rotation_about(const glm::dvec3& axis, double radians) noexcept {
+    const SineCosine half = sine_cosine(0.5 * radians);
+    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
 }
 
 }  // namespace tendril::math

@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
-#include "math/elementary.hpp"
 #include "math/vector.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::math {
 
@@ -43,15 +43,6 @@ static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>
     const Vec<T> axis{q.x, q.y, q.z};
     const Vec<T> t = times(cross(axis, v), T(2));
     return plus(plus(v, times(t, q.w)), cross(axis, t));
-}
-/// Rotation about a unit axis, radians.
-static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
-    const float s = sine(0.5f * angle);
-    return {cosine(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
-}
-static inline glm::dquat rotation_about(const glm::dvec3& axis, double angle) noexcept {
-    const SineCosine half = sine_cosine(0.5 * angle);
-    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
 }
 /// Interpolates along the shortest rotation (K. Shoemake, "Animating rotation with quaternion curves",
 /// SIGGRAPH 1985); `from` if `part` is 0, `to` or its negative (the same rotation) if it is 1.

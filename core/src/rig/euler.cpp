@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "math/elementary.hpp"
 #include "rig/euler_choice.hpp"
 #include "rig/math.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/rig/transform.hpp"
 
 namespace tendril::rig {

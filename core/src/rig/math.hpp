@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "math/elementary.hpp"
 #include "math/rotation.hpp"
 #include "math/vector.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::rig::detail {
 

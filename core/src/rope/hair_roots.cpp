@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
 #include "math/vector.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::rope {
 namespace {

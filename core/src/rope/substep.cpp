@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "math/elementary.hpp"
 #include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
 #include "rope/geometry.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::rope {
 namespace {

@@ -1,4 +1,4 @@
-// math/elementary.hpp for a register of floats, to 3e-7. No operation is fused, so every lane has the same
+// tendril/elementary.hpp for a register of floats, to 3e-7. No operation is fused, so every lane has the same
 // bits with every vector unit. Not installed; included once per vector unit.
 #if defined(TENDRIL_SIGNAL_ELEMENTARY_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_SIGNAL_ELEMENTARY_INL

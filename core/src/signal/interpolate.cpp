@@ -1,7 +1,7 @@
 #include "tendril/signal/interpolate.hpp"
 
-#include "math/elementary.hpp"
 #include "signal/stepped.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::signal {
 namespace {

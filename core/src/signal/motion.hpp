@@ -10,7 +10,7 @@
 // without damping or strength.
 #pragma once
 
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::signal::detail {
 

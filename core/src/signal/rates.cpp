@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "math/elementary.hpp"
+#include "math/random.hpp"
 #include "signal/stepped.hpp"
 #include "tendril/signal/run.hpp"
 

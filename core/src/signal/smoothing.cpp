@@ -1,7 +1,7 @@
 #include "tendril/signal/smoothing.hpp"
 
-#include "math/elementary.hpp"
 #include "signal/stepped.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::signal {
 namespace {

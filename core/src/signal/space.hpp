@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "math/elementary.hpp"
 #include "math/vector.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/signal/input.hpp"
 #include "tendril/vec3.hpp"

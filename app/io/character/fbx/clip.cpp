@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app::fbx {
 namespace {
 
@@ -48,8 +50,8 @@ T hermite(const T& a, const T& leaving, const T& b, const T& arriving, double sp
 }
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat apart = glm::conjugate(a) * b;
-    return 2.0 * std::atan2(std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z),
-                            std::abs(apart.w));
+    return 2.0 * math::arctangent(std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z),
+                                  std::abs(apart.w));
 }
 
 /// The times of the curves' keys within the stack; `with_jumps`: also times beside constant curves' jumps.

@@ -9,6 +9,7 @@
 #include "app/io/character/fbx/clip.hpp"
 #include "app/io/character/fbx/surface.hpp"
 #include "app/io/character/unique_names.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace fbx {
@@ -138,7 +139,7 @@ class CharacterReader {
                 "The file's axes are not right-handed, so only the one that points up is used.");
         if (up == y || up == glm::dvec3(0.0)) return {1.0, 0.0, 0.0, 0.0};
         if (up == -y) return {0.0, 1.0, 0.0, 0.0};
-        return glm::angleAxis(0.5 * 3.14159265358979323846, glm::cross(up, y));
+        return math::rotation_about(glm::cross(up, y), 0.5 * math::pi);
     }
 
     std::string_view bytes_;

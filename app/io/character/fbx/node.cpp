@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
+#include "tendril/elementary.hpp"
+
 namespace tendril::app::fbx {
 namespace {
 
@@ -136,7 +138,7 @@ glm::dquat from_euler(const glm::dvec3& degrees, int order) {
     for (const int axis : axis_orders[static_cast<std::size_t>(order)]) {
         glm::dvec3 along(0.0);
         along[axis] = 1.0;
-        result = glm::angleAxis(glm::radians(degrees[axis]), along) * result;
+        result = math::rotation_about(along, glm::radians(degrees[axis])) * result;
     }
     return result;
 }

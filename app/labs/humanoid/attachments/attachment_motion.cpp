@@ -11,6 +11,7 @@
 
 #include "app/document/workspace.hpp"
 #include "app/labs/humanoid/hold/hold_setting.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -74,8 +75,8 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& wo
     if (ground.kind == humanoid::GroundKind::Flat || rises) all.push_back({"ground", rope::Plane{}});
     if (rises) {
         const double angle = glm::radians(ground.angle_deg);
-        all.push_back({"slope", rope::Plane{.normal = {0.0f, static_cast<float>(std::cos(angle)),
-                                                       static_cast<float>(-std::sin(angle))}}});
+        all.push_back({"slope", rope::Plane{.normal = {0.0f, static_cast<float>(math::cosine(angle)),
+                                                       static_cast<float>(-math::sine(angle))}}});
     }
     for (std::size_t i = 0; i < wearer.held.size(); ++i)
         add("held " + std::to_string(i), wearer.held[i], 0.0);
@@ -132,7 +133,7 @@ double way(const NodeFrame& a, const NodeFrame& b) {
 }
 double turned(const NodeFrame& a, const NodeFrame& b) {
     const double along = std::abs(glm::dot(a.turn, b.turn));
-    return along < 1.0 ? 2.0 * std::acos(along) : 0.0;
+    return along < 1.0 ? 2.0 * math::arccosine(along) : 0.0;
 }
 
 NodeFrame frame_of(const Attachment& attachment, const Wearer& wearer) {

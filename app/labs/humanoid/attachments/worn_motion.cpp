@@ -10,6 +10,7 @@
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold_setting.hpp"
 #include "app/view/palette.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -36,7 +37,7 @@ void add_bar(WornMesh& mesh, const glm::dmat3& into, const End& from, const End&
     for (const End& end : {from, to})
         for (std::uint32_t i = 0; i < sides; ++i) {
             const double angle = glm::two_pi<double>() * i / sides;
-            const dvec3 at = end.at + radius * (std::cos(angle) * u + std::sin(angle) * v);
+            const dvec3 at = end.at + radius * (math::cosine(angle) * u + math::sine(angle) * v);
             mesh.corners.push_back({end.node, into * (at - end.origin)});
         }
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -21,6 +21,7 @@
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
 #include "app/widgets/tooltip.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -45,7 +46,8 @@ OnGround hips_at(const humanoid::Skeleton& skeleton, const std::vector<rig::Tran
     std::vector<humanoid::Placement> placed(skeleton.size());
     humanoid::place(skeleton, pose, placed);
     const glm::dquat rotation = placed[hips].rotation();
-    return {{placed[hips].position.z, placed[hips].position.x}, 2.0 * std::atan2(rotation.y, rotation.w)};
+    return {{placed[hips].position.z, placed[hips].position.x},
+            2.0 * math::arctangent(rotation.y, rotation.w)};
 }
 
 /// The motion from the first round to the current one: z -> turn * z + move.
@@ -64,7 +66,7 @@ RoundTurn of_rounds(const OnGround& first, const OnGround& last, double rounds) 
 rig::Transform transform(const RoundTurn& ground) {
     const double half = 0.5 * std::arg(ground.turn);
     return {.translation = {ground.move.imag(), 0.0, ground.move.real()},
-            .rotation = {std::cos(half), 0.0, std::sin(half), 0.0}};
+            .rotation = {math::cosine(half), 0.0, math::sine(half), 0.0}};
 }
 
 /// Displacement due to the pace after `time` in a round.

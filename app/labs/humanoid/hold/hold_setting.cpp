@@ -4,6 +4,8 @@
 #include <glm/gtc/constants.hpp>
 #include <tendril/magnitude.hpp>
 
+#include "tendril/elementary.hpp"
+
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HoldSetting>() noexcept {
     using namespace app;
@@ -74,7 +76,7 @@ std::vector<HeldBar> wheel_shape(double size) {
     const double radius = wheel_radius * size;
     const auto at = [&](double part) {
         const double angle = glm::two_pi<double>() * part / parts;
-        return radius * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+        return radius * glm::dvec3(math::cosine(angle), math::sine(angle), 0.0);
     };
     for (int i = 0; i < parts; ++i) bars.push_back({at(i), at(i + 1), bar * size});
     for (const int spoke : {0, 12, 18}) bars.push_back({glm::dvec3(0.0), at(spoke), 0.6 * bar * size});

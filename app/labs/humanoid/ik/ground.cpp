@@ -8,6 +8,7 @@
 
 #include "app/labs/kit/arguments.hpp"
 #include "app/view/surfaces.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 
@@ -22,9 +23,9 @@ humanoid::HeightField hills() {
         for (std::size_t column = 0; column < count; ++column) {
             const double x = -half + cell * static_cast<double>(column);
             const double z = -half + cell * static_cast<double>(row);
-            const double flat = std::clamp(std::hypot(x, z) - 0.3, 0.0, 1.0);
-            const double height = 0.10 * std::sin(1.3 * z + 0.4 * x) + 0.06 * std::sin(1.9 * x - 0.5 * z) +
-                                  0.03 * std::sin(3.1 * z + 1.1);
+            const double flat = std::clamp(std::sqrt(x * x + z * z) - 0.3, 0.0, 1.0);
+            const double height = 0.10 * math::sine(1.3 * z + 0.4 * x) +
+                                  0.06 * math::sine(1.9 * x - 0.5 * z) + 0.03 * math::sine(3.1 * z + 1.1);
             field.heights.push_back(flat * height);
         }
     }
@@ -71,7 +72,8 @@ class GroundDrawing {
           colour_(glm::mix(view.palette.background_bottom, view.palette.neutral, 0.45f)) {}
 
     void slope() const {
-        const float rise = std::tan(glm::radians(static_cast<float>(ground_.angle_deg)));
+        const float angle = glm::radians(static_cast<float>(ground_.angle_deg));
+        const float rise = math::sine(angle) / math::cosine(angle);
         const float from = std::max(0.0f, around_.z - behind), to = std::max(2.0f, around_.z + ahead);
         const auto at = [&](float side, float z, float up) {
             return glm::vec3(around_.x + side * half_width, up * rise * z, z);

@@ -12,6 +12,7 @@
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::app {
 namespace {
@@ -188,7 +189,7 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
 
 /// Turns the camera to the side: ground that rises ahead of the character would hide it from the front.
 void look_from_aside(Workspace& workspace) {
-    if (workspace.lab == humanoid_lab && std::cos(workspace.camera.yaw) > 0.5f)
+    if (workspace.lab == humanoid_lab && math::cosine(workspace.camera.yaw) > 0.5f)
         workspace.camera.yaw = glm::radians(62.0f);
 }
 

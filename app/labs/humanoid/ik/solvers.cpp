@@ -214,7 +214,7 @@ const Solvers::Gait* Solvers::gait(const HumanoidPart& part) {
         for (std::size_t side = 0; side < 2; ++side) {
             const bool low = std::min(soles[side].heel.y, soles[side].toe.y) < *ground + low_under;
             const glm::dvec3 moved = soles[side].toe - before[side].toe;
-            if (i > 0 && low) speeds[side].push_back(std::hypot(moved.x, moved.z) / dt);
+            if (i > 0 && low) speeds[side].push_back(std::sqrt(moved.x * moved.x + moved.z * moved.z) / dt);
         }
         before = soles;
     }
@@ -225,7 +225,7 @@ const Solvers::Gait* Solvers::gait(const HumanoidPart& part) {
         gait.slide[side] = *middle;
     }
     const glm::dvec3 way = placed[hips].position - start;
-    gait.travel = std::hypot(way.x, way.z) / clip.duration;
+    gait.travel = std::sqrt(way.x * way.x + way.z * way.z) / clip.duration;
     return &gait;
 }
 

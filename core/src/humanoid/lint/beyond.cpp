@@ -4,8 +4,8 @@
 #include "humanoid/joint_turn.hpp"
 #include "humanoid/lint/lint.hpp"
 #include "ik/limits/joint.hpp"
-#include "math/elementary.hpp"
 #include "math/vector.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid::lint_detail {
 namespace {

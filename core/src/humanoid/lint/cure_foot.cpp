@@ -14,7 +14,7 @@
 #include "humanoid/lint/feet.hpp"
 #include "humanoid/lint/tracks.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::humanoid::lint_detail {
 namespace {

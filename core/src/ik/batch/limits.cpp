@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ik/limits/joint.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik::detail {
 namespace {

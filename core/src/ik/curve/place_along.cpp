@@ -4,8 +4,8 @@
 #include "ik/curve/path.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
 #include "math/ranges.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/curve.hpp"
 
 namespace tendril::ik {

@@ -6,7 +6,7 @@
 
 #include "ik/incident/thresholds.hpp"
 #include "ik/math.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "ik/incident/thresholds.hpp"
 #include "ik/math.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {

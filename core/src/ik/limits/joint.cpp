@@ -4,7 +4,7 @@
 
 #include "ik/limits/clamp.hpp"
 #include "ik/math.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik::detail {
 namespace {

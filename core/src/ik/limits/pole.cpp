@@ -2,7 +2,7 @@
 
 #include "ik/limits/pose.hpp"
 #include "ik/pole/pole.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

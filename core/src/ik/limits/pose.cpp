@@ -2,7 +2,7 @@
 
 #include "ik/tunables.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

@@ -8,7 +8,7 @@
 #include "ik/pole/pole.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/tunables.hpp"
-#include "math/elementary.hpp"
+#include "math/random.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "ik/linkage/solve.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik::detail {
 

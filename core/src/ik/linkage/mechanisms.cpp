@@ -6,7 +6,7 @@
 
 #include "ik/math.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "ik/linkage/solve.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::ik::detail {
 

@@ -8,7 +8,7 @@
 #include "ik/linkage/solve.hpp"
 #include "ik/math.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/linkage_sketch.hpp"
 
 namespace tendril::ik {

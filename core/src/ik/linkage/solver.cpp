@@ -4,8 +4,8 @@
 #include "ik/linkage/solve.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
 #include "math/ranges.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {

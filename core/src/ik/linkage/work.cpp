@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/elementary.hpp"
+#include "math/random.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik::detail {

@@ -10,8 +10,8 @@
 #include "ik/pole/pole.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
-#include "math/elementary.hpp"
 #include "math/ranges.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
 

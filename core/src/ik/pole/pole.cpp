@@ -7,7 +7,7 @@
 
 #include "ik/math.hpp"
 #include "ik/tunables.hpp"
-#include "math/elementary.hpp"
+#include "tendril/elementary.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

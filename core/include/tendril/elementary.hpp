@@ -1,17 +1,22 @@
-// Elementary functions and random numbers in plain arithmetic, because those of the standard library differ
-// between systems, and sometimes between processors. Errors are below 1 unit in the last place, for huge and
-// subnormal arguments too. Not installed.
+// Elementary functions in plain arithmetic. The standard library's differ between systems, and sometimes
+// between processors; these give the same bits everywhere, so a target or an angle that a game computes with
+// them replays exactly. Errors are below 1 unit in the last place, for huge and subnormal arguments too.
 #pragma once
 
-#include <cstdint>
+#include "tendril/quat.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::math {
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double ln2 = 0.693147180559945309417;
 
+/// e^x; 0 for x <= -708, infinity for x > 709, and NaN for NaN.
+double exponential(double x) noexcept;
 /// e^-x for x >= 0; 0 from 708 on, and for NaN.
 double decay(double x) noexcept;
+/// The natural logarithm; -infinity for 0, NaN below 0.
+double logarithm(double x) noexcept;
 
 struct SineCosine {
     double sine, cosine;
@@ -28,14 +33,11 @@ SineCosine sine_cosine_of_turns(double turns) noexcept;
 /// The angle of the point (x, y) from the x axis, radians, -pi to pi; 0 for the origin. -0 counts as 0.
 double arctangent(double y, double x) noexcept;
 float arctangent(float y, float x) noexcept;
+/// Radians, 0 to pi. A cosine beyond -1 to 1 counts as the nearer of them.
+double arccosine(double cosine) noexcept;
 
-/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014): 64
-/// random bits, and the state for the next.
-inline std::uint64_t random_bits(std::uint64_t& state) noexcept {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+/// Rotation about a unit axis, radians.
+glm::quat rotation_about(const glm::vec3& axis, float radians) noexcept;
+glm::dquat rotation_about(const glm::dvec3& axis, double radians) noexcept;
 
 }  // namespace tendril::math
