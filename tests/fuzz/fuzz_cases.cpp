@@ -61,8 +61,7 @@ void solve(app::LinkageCase linkage) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string_view text = fuzz::text_of(data, size);
+FUZZ_TARGET(cases) {
     try {
         std::size_t cases = 0;
         app::read_cases(text, [&](const app::Case& each, double part) {
@@ -78,5 +77,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const std::invalid_argument&) {
         check(false, "what a solver cannot be made from is refused with its place");
     }
-    return 0;
 }

@@ -26,15 +26,14 @@ std::vector<signal::Sample> rows() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(filters) {
     static const std::vector<signal::Sample> samples = rows();
     std::vector<signal::Filter> filters;
     try {
-        filters =
-            app::filters_from_json({app::parse_json(fuzz::text_of(data, size)), "filters"}, max_filters);
+        filters = app::filters_from_json({app::parse_json(text), "filters"}, max_filters);
     } catch (const std::runtime_error& error) {
         check(error.what()[0] != '\0', "a refusal says why");
-        return 0;
+        return;
     }
     check(filters.size() <= max_filters, "no more than may be");
     for (const signal::Filter& filter : filters) {
@@ -46,5 +45,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     for (const double output : signal::run(filters, samples))
         check(!std::isnan(output), "what comes out of all of them is a number");
-    return 0;
 }

@@ -6,8 +6,7 @@
 using namespace tendril::app;
 using tendril::fuzz::check;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string_view text = tendril::fuzz::text_of(data, size);
+FUZZ_TARGET(json) {
     Json ours;
     try {
         ours = parse_json(text);
@@ -15,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const bool deep = error.reason.find("deeper") != std::string::npos;
         check(deep || !Json::accept(text), "what the library reads, we read");
         check(error.line >= 1, "an error has a line");
-        return 0;
+        return;
     }
     // Compared without order: both keep the last of repeated members, but at different positions.
     const auto theirs = nlohmann::json::parse(text);
@@ -23,5 +22,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(parse_json(json_to_text(ours)) == ours, "text for people reads back the same");
     json_summary(ours);
     for (const char* path : {"a", "a.b", "0", "0.0.0", "labs.chain.segments.0", "."}) json_line(text, path);
-    return 0;
 }

@@ -3,15 +3,15 @@
 #include "app/io/character/stick_figure.hpp"
 #include "tests/fuzz/check.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(map) {
     using namespace tendril;
     static const app::Character figure = app::stick_figure();
     app::SavedMap map;
     try {
-        map = app::parse_map(fuzz::text_of(data, size), "it");
+        map = app::parse_map(text, "it");
     } catch (const std::runtime_error& error) {
         fuzz::check(std::string_view(error.what()).starts_with("it: "), "a refusal names the file");
-        return 0;
+        return;
     }
     fuzz::check(app::parse_map(app::map_text(map), "it") == map, "what was read is written the same");
     try {
@@ -19,5 +19,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const std::runtime_error&) {
         // Names that the figure does not have.
     }
-    return 0;
 }

@@ -39,8 +39,7 @@ void use(std::vector<signal::Sample> samples) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string_view text = fuzz::text_of(data, size);
+FUZZ_TARGET(samples) {
     std::size_t rows = 1;
     try {
         const std::vector<signal::Sample> samples = app::parse_samples(text, "rows.csv").samples;
@@ -55,5 +54,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const std::runtime_error& error) {
         check(std::string_view(error.what()).starts_with("rows.csv: "), "a refusal names the file");
     }
-    return 0;
 }

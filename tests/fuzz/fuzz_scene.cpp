@@ -43,12 +43,7 @@ const Fixture& fixture() {
 
 }  // namespace
 
-/// Writes the labs' scenes to the first given folder, which also receives the fuzzer's corpus.
-extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-    std::filesystem::path folder;
-    for (int i = 1; i < *count && folder.empty(); ++i)
-        if (std::filesystem::is_directory((*arguments)[i])) folder = (*arguments)[i];
-    if (folder.empty()) return 0;
+void tendril::fuzz::write_scenes(const std::filesystem::path& folder) {
     const Fixture& with = fixture();
     for (const auto& lab : with.labs.all())
         for (const tendril::test::TestScene& scene : tendril::test::test_scenes(*lab)) {
@@ -60,18 +55,17 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
             if (text.size() <= max_bytes)
                 std::ofstream(folder / (lab->name() + "_" + scene.name + ".json")) << text;
         }
-    return 0;
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(scene) {
     const Fixture& with = fixture();
     Workspace workspace = with.blank;
     try {
-        load_scene(workspace, parse_json(tendril::fuzz::text_of(data, size)));
+        load_scene(workspace, parse_json(text));
     } catch (const std::runtime_error&) {
         check(workspace.document == with.blank.document, "a refused scene leaves the document");
         check(save_scene(workspace) == with.saved, "a refused scene leaves everything");
-        return 0;
+        return;
     }
     const Json saved = save_scene(workspace);
     Workspace again = with.blank;
@@ -85,5 +79,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (int tick = 0; tick < 2 && lab->tick_work(workspace) <= max_work; ++tick) lab->step(workspace);
     }
     load_scene(again, save_scene(workspace));  // it opens again after some time
-    return 0;
 }

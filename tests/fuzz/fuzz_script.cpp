@@ -32,14 +32,14 @@ void use(const RunCommand& command, Workspace& workspace, const CommandTable& co
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(script) {
     static const Labs labs;
     static const CommandTable commands = make_command_table(labs);
     Script script;
     try {
-        script = parse_script(tendril::fuzz::text_of(data, size), commands);
+        script = parse_script(text, commands);
     } catch (const std::runtime_error&) {
-        return 0;
+        return;
     }
     Workspace workspace = make_blank_workspace(labs);
     for (const ScriptLine& line : script.lines) {
@@ -51,5 +51,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             check_expectation(*expect, lab->state(workspace));
         }
     }
-    return 0;
 }

@@ -9,8 +9,8 @@
 using namespace tendril;
 using tendril::fuzz::check;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    std::istringstream in{std::string(fuzz::text_of(data, size))};
+FUZZ_TARGET(trace) {
+    std::istringstream in{std::string(text)};
     try {
         app::TraceReader reader(in);
         check(std::isfinite(reader.fps()) && reader.fps() > 0.0, "frames a second are a number");
@@ -23,5 +23,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const std::runtime_error& error) {
         check(*error.what() != 0, "a refusal says why");
     }
-    return 0;
 }
