@@ -226,7 +226,7 @@ TEST_P(LabCard, AHiddenCardReopensFresh) {
     EXPECT_TRUE(complaints.empty());
     for (const CardLine& line : scene.card().scene) scene.run(line.command, line.arguments);
     scene.run("view.card", Json::object());
-    scene.wait(60);
+    scene.wait(20);
     EXPECT_FALSE(scene.done().front());
     EXPECT_EQ(scene.app().state().at("card").at("title"), scene.card().title);
 }
@@ -246,6 +246,7 @@ TEST(ChainCard, GivesWayToARaceAndAsksForThePoleInItsFlip) {
 /// The button that hides the card is somewhere near the right edge, above the steps.
 TEST_P(LabCard, OneClickHidesIt) {
     CardOnScene scene(GetParam());
+    scene.run("time.pause", Json::object());
     App& app = scene.app();
     const auto send = [&](const Event& event) { app.tick(&event); };
     for (float y = 700.0f; y > 60.0f && card_shown(app.workspace().settings, GetParam().lab); y -= 6.0f) {
@@ -262,6 +263,7 @@ TEST_P(LabCard, LeavesRoomForTheInspector) {
     for (const glm::ivec2 size : {glm::ivec2(1024, 640), glm::ivec2(1280, 720), glm::ivec2(2560, 1440)}) {
         if (size.x > 1024 && GetParam().number > 1 && !is_thorough()) continue;
         CardOnScene scene(GetParam(), size);
+        scene.run("time.pause", Json::object());
         for (const float scale : {1.0f, 1.5f, 2.0f}) {
             scene.run("view.text_scale", {{"scale", scale}});
             const bool one_panel = lay_out(size, scale, Settings{}, 0.0f).one_panel;

@@ -7,6 +7,7 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/io/posed.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -191,14 +192,15 @@ TEST_F(HumanoidAttach, IsNotTornByArmsThatCloseOnTheTrunk) {
 TEST_F(HumanoidAttach, ACapeDoesNotClimb) {
     const auto path = test::characters_folder() / "mixed_orders.bvh";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-    for (const auto& [start, loop] : {std::pair(0.17, false), {0.41, false}, {0.66, true}}) {
+    for (const auto& [start, loop] : {std::pair(0.17, false), {0.66, true}, {0.41, false}}) {
+        if (start == 0.41 && !test::is_thorough()) continue;
         workspace = make_blank_workspace(labs);
         run("humanoid.load", {{"path", path.string()}});
         run("humanoid.clip", {{"time", start}, {"play", true}, {"loop", loop}});
         run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
         tick(180);
         const double hem = last("cape").y;
-        for (int i = 0; i < 600; ++i) {
+        for (int i = 0; i < (test::is_thorough() ? 600 : 300); ++i) {
             tick();
             ASSERT_LT(last("cape").y, hem + 0.05) << start << ", tick " << i;
         }
