@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Row {
-    const Case& asked;
+    const Case& problem;
     ik::Method method;
     ik::Report report;
     double microseconds;
@@ -59,12 +59,12 @@ class Rows {
 class JsonRows final : public Rows {
   public:
     void add(Output& out, const Row& row) override {
-        Json json{{"name", row.asked.name}};
+        Json json{{"name", row.problem.name}};
         json.update(row.json());
         if (row.curve)
             json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
                              {"past_end", number(row.curve->past_end)}};
-        if (row.asked.normal) json["off_plane"] = number(row.report.off_plane);
+        if (row.problem.normal) json["off_plane"] = number(row.report.off_plane);
         json.erase("ran");  // only in the table; the JSON's keys must not change for scripts
         json["microseconds"] = microseconds_json(row.microseconds);
         if (!row.linkage) {
@@ -92,7 +92,7 @@ class CsvRows final : public Rows {
         out.write(line + '\n');
     }
     void add(Output& out, const Row& row) override {
-        std::string line = csv_field(row.asked.name);
+        std::string line = csv_field(row.problem.name);
         const Json report = row.json();
         for (const char* key : {"solver", "status", "iterations", "residual"}) {
             const Json& value = report[key];
@@ -131,7 +131,7 @@ class TableRows final : public Rows {
         std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  ", row.solver(),
                       report["status"].get_ref<const std::string&>().c_str(), report["iterations"].get<int>(),
                       residual, row.microseconds);
-        out.write(column(row.asked.name, name_width_) + rest + ran + '\n');
+        out.write(column(row.problem.name, name_width_) + rest + ran + '\n');
     }
 
   private:
@@ -194,47 +194,48 @@ Survey check(std::string_view text, const Json& goals, Progress& progress, const
 }
 
 /// The residual is the distance from the tip to the curve's end.
-Row place(const Case& asked, std::vector<glm::vec3>& joints) {
-    joints = asked.start;
-    ik::State state(asked.lengths.size());
+Row place(const Case& problem, std::vector<glm::vec3>& joints) {
+    joints = problem.start;
+    ik::State state(problem.lengths.size());
     ik::CurveMemory memory;
     const auto begin = Clock::now();
     const ik::CurveReport placed =
-        ik::place_along(asked.curve, {asked.lengths, asked.rest_directions}, joints, state, memory);
+        ik::place_along(problem.curve, {problem.lengths, problem.rest_directions}, joints, state, memory);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
     const ik::Report report{.status = placed.status,
                             .residual = std::max(placed.past_end, placed.short_of_end)};
-    return {asked, ik::Method::Fabrik, report, taken.count(), joints, placed};
+    return {problem, ik::Method::Fabrik, report, taken.count(), joints, placed};
 }
 
-Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
-    Expected<ik::Solver> made = ik::Solver::make(asked.lengths, asked.rest_directions);
+Row solve(const Case& problem, ik::Method method, const SolveOptions& options,
+          std::vector<glm::vec3>& joints) {
+    Expected<ik::Solver> made = ik::Solver::make(problem.lengths, problem.rest_directions);
     if (!made) throw std::invalid_argument(made.message());
     ik::Solver& solver = *made;
     ik::State state = solver.initial_state();
-    ik::Options told;
-    told.tolerance = options.tolerance;
-    told.max_iterations = options.max_iterations.value_or(told.max_iterations);
-    told.pole = asked.pole;
-    told.limits = asked.limits;
-    if (asked.normal) told.plane = ik::Plane{*asked.normal, asked.bend, asked.angle_limits};
-    joints = asked.start;
+    ik::Options solve_options;
+    solve_options.tolerance = options.tolerance;
+    solve_options.max_iterations = options.max_iterations.value_or(solve_options.max_iterations);
+    solve_options.pole = problem.pole;
+    solve_options.limits = problem.limits;
+    if (problem.normal) solve_options.plane = ik::Plane{*problem.normal, problem.bend, problem.angle_limits};
+    joints = problem.start;
     const auto begin = Clock::now();
-    const ik::Report report = solver.solve(method, joints, state, asked.target, told);
+    const ik::Report report = solver.solve(method, joints, state, problem.target, solve_options);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-    return {asked, method, report, taken.count(), joints, std::nullopt, nullptr, report.accepted.message()};
+    return {problem, method, report, taken.count(), joints, std::nullopt, nullptr, report.accepted.message()};
 }
 
 /// Solves one row, starting from the pose of the row before.
-Row move_linkage(Case& asked, std::size_t index, LinkageRuntime& runtime, const SolveOptions& options,
+Row move_linkage(Case& problem, std::size_t index, LinkageRuntime& runtime, const SolveOptions& options,
                  const std::vector<glm::vec3>& joints) {
-    ik::LinkageOptions told;
-    told.max_iterations = options.max_iterations.value_or(told.max_iterations);
-    if (options.tolerance) told.tolerance = static_cast<double>(*options.tolerance);
+    ik::LinkageOptions solve_options;
+    solve_options.max_iterations = options.max_iterations.value_or(solve_options.max_iterations);
+    if (options.tolerance) solve_options.tolerance = static_cast<double>(*options.tolerance);
     const auto begin = Clock::now();
-    asked.linkage->solve(index, runtime, told);
+    problem.linkage->solve(index, runtime, solve_options);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-    return {asked, ik::Method::Fabrik, {}, taken.count(), joints, std::nullopt, &*asked.linkage};
+    return {problem, ik::Method::Fabrik, {}, taken.count(), joints, std::nullopt, &*problem.linkage};
 }
 
 std::unique_ptr<Rows> rows_of(RowFormat format, const Survey& survey) {
@@ -269,27 +270,27 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
     std::vector<glm::vec3> joints;
     const auto rows = rows_of(options.format, survey);
     rows->begin(out);
-    const auto each = [&](Case& asked, double) {
+    const auto each = [&](Case& problem, double) {
         const auto all = static_cast<double>(survey.cases);
         LinkageRuntime runtime;
-        const std::size_t count = asked.linkage ? asked.linkage->rows() : 0;
+        const std::size_t count = problem.linkage ? problem.linkage->rows() : 0;
         for (std::size_t i = 0; i < count; ++i) {
             if (ending) return false;
-            rows->add(out, move_linkage(asked, i, runtime, options, joints));
+            rows->add(out, move_linkage(problem, i, runtime, options, joints));
             const double part = static_cast<double>(i + 1) / static_cast<double>(count);
             progress.show("solving", (static_cast<double>(done) + part) / all);
         }
-        if (asked.linkage) {
+        if (problem.linkage) {
             ++done;
             return true;
         }
         for (const ik::Method method : options.methods) {
             if (ending) return false;
-            if (!asked.curve.empty()) {
-                rows->add(out, place(asked, joints));
+            if (!problem.curve.empty()) {
+                rows->add(out, place(problem, joints));
                 break;  // the method does not apply
             }
-            rows->add(out, solve(asked, method, options, joints));
+            rows->add(out, solve(problem, method, options, joints));
         }
         progress.show("solving", static_cast<double>(++done) / all);
         return true;

@@ -220,7 +220,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const Palette& colours = frame.colours();
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     ImGui::PushFont(small_font());
-    const char* told = nullptr;
+    const char* hovered_axis = nullptr;
     for (const End& end : ends) {
         const Axis& axis = axes[end.axis];
         bool hovered = false;
@@ -233,7 +233,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
         if (hovered) {
             list->AddCircleFilled({centre.x, centre.y}, reach + 1.7f * radius, imgui_u32(colours.text, 0.05f),
                                   48);
-            told = axis.title;
+            hovered_axis = axis.title;
         }
         const bool positive = axis.letter[0] != '\0';
         // Ends at the back are fainter.
@@ -258,9 +258,9 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
                   name.c_str());
     const float around = reach + radius;
     const Rect whole{centre - around, {centre.x + around, centre.y + reach + 1.6f * radius + size.y}};
-    if (told != nullptr) {
+    if (hovered_axis != nullptr) {
         const Tooltip opened(whole);
-        ImGui::Text("%s view", told);
+        ImGui::Text("%s view", hovered_axis);
     }
     ImGui::PopFont();
     return whole;

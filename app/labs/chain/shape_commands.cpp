@@ -239,14 +239,14 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
     const std::vector<glm::vec3> points = read_points(text, max_pasted_points);
     if (points.size() > 1)
         return "A chain of " + std::to_string(points.size()) + " joints from the clipboard";
-    std::string told = part.chosen_point == ChainPoint::Pole ? "The pole target goes"
-                       : part.selection.empty()              ? "The target goes"
-                       : part.selection.several()            ? "The active joint, and the others with it, go"
-                                                             : "The selected joint goes";
-    told += " to (";
+    std::string label = part.chosen_point == ChainPoint::Pole ? "The pole target goes"
+                        : part.selection.empty()              ? "The target goes"
+                        : part.selection.several()            ? "The active joint, and the others with it, go"
+                                                              : "The selected joint goes";
+    label += " to (";
     for (const int axis : {0, 1, 2})
-        told += (axis > 0 ? ", " : "") + fixed_text(static_cast<double>(points.front()[axis]), 3);
-    return told + ") m";
+        label += (axis > 0 ? ", " : "") + fixed_text(static_cast<double>(points.front()[axis]), 3);
+    return label + ") m";
 }
 
 /// True if pasted text is a trace: two frames or more, or a pose with a target.

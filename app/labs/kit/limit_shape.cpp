@@ -131,11 +131,11 @@ JointTurn joint_turn(const glm::dquat& turn, const glm::dvec3& along) {
     const double about = glm::dot(sines, glm::normalize(along));
     const double across = std::sqrt(std::max(0.0, glm::dot(sines, sines) - about * about));
     const double kept = std::sqrt(q.w * q.w + about * about);
-    JointTurn told;
-    told.swing = glm::degrees(2.0 * math::arctangent(across, kept));
-    told.twist = kept > 1e-12 * glm::length(q) ? glm::degrees(2.0 * math::arctangent(about, q.w)) : 0.0;
-    told.angle = glm::degrees(2.0 * math::arctangent(glm::length(sines), q.w));
-    return told;
+    JointTurn measured;
+    measured.swing = glm::degrees(2.0 * math::arctangent(across, kept));
+    measured.twist = kept > 1e-12 * glm::length(q) ? glm::degrees(2.0 * math::arctangent(about, q.w)) : 0.0;
+    measured.angle = glm::degrees(2.0 * math::arctangent(glm::length(sines), q.w));
+    return measured;
 }
 
 }  // namespace tendril::app

@@ -27,7 +27,7 @@ struct Moved {
     double share = 0.0;  ///< the changed fraction of its range; 1 for a toggled switch
 
     /// The angle is relative to the bone, which may move; the distance is the control's own.
-    InputMove seen_from(const rig::Transform& was, const rig::Transform& is) const {
+    InputMove relative_to(const rig::Transform& was, const rig::Transform& is) const {
         InputMove move;
         if (placed)
             move = {
@@ -92,7 +92,7 @@ std::vector<RigFlip> find_flips(const rig::Rig& rig, const rig::State& was, cons
         if (radians <= glm::radians(static_cast<double>(rule.degrees))) continue;
         if (!size) size = skeleton_size(rig, before);
         const bool explained = std::ranges::any_of(controls, [&](const Moved& each) {
-            return ik::explains(each.seen_from(from, to), radians, *size, rule);
+            return ik::explains(each.relative_to(from, to), radians, *size, rule);
         });
         if (!explained) flips.push_back({i, radians});
     }
@@ -342,21 +342,21 @@ Cause unit_cause(const Both& both) {
 
 std::vector<RigFlip> rig_flips(const RigPart& part, const rig::State& was, const rig::State& is,
                                std::size_t most) {
-    std::vector<RigFlip> flips = find_flips(part.rig, was, is, part.flips), told;
-    if (flips.empty()) return told;
+    std::vector<RigFlip> flips = find_flips(part.rig, was, is, part.flips), reported;
+    if (flips.empty()) return reported;
     flips.resize(std::min(flips.size(), 16 * most));
     const rig::Units& units = part.rig.definition().units;
     rig::Workspace scratch(part.rig);
     const Watched before(part, was, flips, scratch), after(part, is, flips, scratch);
     std::set<std::optional<std::size_t>> causing;
-    for (std::size_t i = 0; i < flips.size() && told.size() < most; ++i) {
+    for (std::size_t i = 0; i < flips.size() && reported.size() < most; ++i) {
         // The first unit after which the two solves differ by at least half the flip.
         std::optional<std::size_t> unit;
         for (std::size_t row = 1; row < std::min(before.rows.size(), after.rows.size()) && !unit; ++row)
             if (turn_between(before.rows[row][i], after.rows[row][i]) >= 0.5 * flips[i].radians)
                 unit = row - 1;
         if (!causing.insert(unit).second) continue;
-        RigFlip& flip = told.emplace_back(flips[i]);
+        RigFlip& flip = reported.emplace_back(flips[i]);
         flip.cause = not_known;
         if (!unit) continue;
         std::string who = "unit " + units[*unit].name;
@@ -366,7 +366,7 @@ std::vector<RigFlip> rig_flips(const RigPart& part, const rig::State& was, const
         const Both both{.unit = units[*unit], .before = first, .after = second, .radians = flip.radians};
         flip.cause = who + ": " + unit_cause(both).value_or(not_known);
     }
-    return told;
+    return reported;
 }
 
 }  // namespace tendril::app

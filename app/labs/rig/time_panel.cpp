@@ -243,7 +243,7 @@ std::vector<TimeBar> clip_bars(const RigPart& part, const Palette& colours) {
 }
 
 /// "2.35 s: the rig cannot express left 6: off by 12.3 mm, 8.1°"
-std::string told(const RigPart& part, std::uint64_t tick) {
+std::string usage_text(const RigPart& part, std::uint64_t tick) {
     std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
     if (tick < part.take.began)
         text +=
@@ -311,7 +311,7 @@ void take_strip(const Workspace& workspace, Emit& emit) {
     if (use.on_mark >= 0)
         tell_incident(workspace.rewind.incidents()[numbers[static_cast<std::size_t>(use.on_mark)]]);
     else if (use.hovered >= 0)
-        tooltip(told(part, window.first + static_cast<std::uint64_t>(use.hovered)));
+        tooltip(usage_text(part, window.first + static_cast<std::uint64_t>(use.hovered)));
 }
 
 }  // namespace

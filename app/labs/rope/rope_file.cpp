@@ -67,7 +67,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept
     static constexpr Field rows[] = {
         field<&Jitter::rate>("rate", {1.0 / app::max_jitter_frame, 1.0 / app::min_jitter_frame}, "Hz"),
         field<&Jitter::dial>("dial").needed(), field<&Jitter::frames>("frames", {0.0, 4294967295.0}).needed(),
-        field<&Jitter::owed>("owed", {0.0, 10.0}, "s").needed(),
+        field<&Jitter::pending>("owed", {0.0, 10.0}, "s").needed(),
         field<&Jitter::frame>("frame", {0.0, app::max_jitter_frame}, "s").needed()};
     return rows;
 }

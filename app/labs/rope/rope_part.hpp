@@ -118,7 +118,7 @@ struct Jitter {
     float rate = 60.0f;  ///< Hz; at 60 and dial 0 each frame is a tick
     float dial = 0.0f;
     std::uint32_t frames = 0;  ///< frames so far; determines the length of the next frame
-    double owed = 0.0;         ///< seconds since the last frame
+    double pending = 0.0;         ///< seconds since the last frame
     double frame = 0.0;        ///< length of the next frame, seconds; 0: not known yet, or a tick
     bool operator==(const Jitter&) const = default;
 };

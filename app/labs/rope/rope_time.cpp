@@ -137,14 +137,15 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
     if (holds(part) || std::ranges::any_of(world->state().pins, moved)) tick.work_left = max_dragged_work;
     Jitter& jitter = part.jitter;
     if (jitter.dial == 0.0f && jitter.rate == 60.0f) {
-        if (jitter.owed > 0.0) pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, tick);
+        if (jitter.pending > 0.0)
+            pass_frame(part, *world, std::exchange(jitter.pending, 0.0), workspace, tick);
         jitter.frame = 0.0;
         pass_frame(part, *world, seconds, workspace, tick);
     } else {
-        jitter.owed += seconds;
+        jitter.pending += seconds;
         if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter, jitter.frames);
-        while (jitter.owed + rounding >= jitter.frame) {
-            jitter.owed = std::max(jitter.owed - jitter.frame, 0.0);
+        while (jitter.pending + rounding >= jitter.frame) {
+            jitter.pending = std::max(jitter.pending - jitter.frame, 0.0);
             pass_frame(part, *world, jitter.frame, workspace, tick);
             jitter.frame = jitter_frame(jitter, ++jitter.frames);
         }

@@ -59,15 +59,15 @@ Clip clip_of(const Shared& of, humanoid::Clip clip, std::vector<std::string> not
     return {of, std::make_shared<const humanoid::Clip>(std::move(clip)), std::move(notes)};
 }
 
-/// Reads in another thread; this one calls `told` with the part read and listens to Ctrl+C. An exception of
+/// Reads in another thread; this one calls `report` with the part read and listens to Ctrl+C. An exception of
 /// either cancels the reading.
-Shared read(const fs::path& file, const py::object& told) {
+Shared read(const fs::path& file, const py::object& report) {
     constexpr std::chrono::milliseconds between_calls(50);  // a bar grows smoothly, and Python hardly works
     app::LoadProgress progress;
     const auto tell = [&](float part) {
         const py::gil_scoped_acquire held;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!told.is_none()) told(part);
+        if (!report.is_none()) report(part);
     };
     auto reading = std::async(std::launch::async, [&] {
         auto loaded = std::make_shared<Loaded>();

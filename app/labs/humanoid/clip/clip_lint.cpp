@@ -170,15 +170,15 @@ namespace {
 /// `left`: all remaining findings. Names those that were to be fixed, with the reason.
 std::string cured_text(const HumanoidPart& part, JudgedClip judged, const std::string& clip, std::size_t done,
                        std::size_t left, const std::vector<Finding>& meant) {
-    const std::size_t told = std::min<std::size_t>(meant.size(), 3);
+    const std::size_t listed = std::min<std::size_t>(meant.size(), 3);
     std::string text = clip + ": " + count_text(done, "fault") + " fixed, " +
                        (left == 0 ? std::string("none") : std::to_string(left)) + " left";
-    for (std::size_t i = 0; i < told; ++i) {
+    for (std::size_t i = 0; i < listed; ++i) {
         const std::string why = why_no_fix(part, meant[i], judged);
         text += (i == 0 ? ": " : "; ") + meant[i].text;
-        if (i + 1 == told || why_no_fix(part, meant[i + 1], judged) != why) text += ": no fix, " + why;
+        if (i + 1 == listed || why_no_fix(part, meant[i + 1], judged) != why) text += ": no fix, " + why;
     }
-    if (meant.size() > told) text += "; and " + std::to_string(meant.size() - told) + " more";
+    if (meant.size() > listed) text += "; and " + std::to_string(meant.size() - listed) + " more";
     return text;
 }
 

@@ -299,12 +299,12 @@ void hold_rows(const HumanoidPanel& panel) {
     }
     FieldRows(*hold, "humanoid.hold", panel.emit).rows("kind", "size", "hands", "with_body");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    std::string told = why.empty() ? shown.refused : "Full-body IK is off: " + why + ".";
+    std::string message = why.empty() ? shown.refused : "Full-body IK is off: " + why + ".";
     if (shown.hold) {
         const Verdict verdict = hold_verdict(*hold, *shown.hold);
-        told = verdict.text + ". " + verdict.why;
+        message = verdict.text + ". " + verdict.why;
     }
-    kept_note("held", told, 3);
+    kept_note("held", message, 3);
     if (row_button("Let go", 1, true, "Releases the object")) panel.emit("humanoid.release");
     end_row();
 }

@@ -429,7 +429,7 @@ TEST_F(HumanoidKeptMaps, InvalidOnesAreSkippedWithAMessage) {
         load();
         EXPECT_EQ(left_hand(), "LeftHand");
         EXPECT_TRUE(test::has(kept().at("refused").get<std::string>(), "the kept bone map is ignored: "));
-        EXPECT_EQ(workspace.ui.toasts.back().text, kept().at("refused"));
+        EXPECT_EQ(workspace.ui.toasts.back().text, kept().at("refused").get<std::string>());
         expect_refused("humanoid.map.use", {}, {"is ignored"});
     }
     test::write(file(), good);
