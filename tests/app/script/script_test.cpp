@@ -89,11 +89,11 @@ TEST(Script, HasLinesForExpectations) {
     using Measure = Expect::Measure;
     const auto near = only<Expect>(R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})");
     EXPECT_TRUE(near.measure == Measure::Near && near.path == "tail" && near.within == 0.001);
-    EXPECT_EQ(near.value, Json::array({1, 2, 0}));
+    EXPECT_EQ(*near.value, Json::array({1, 2, 0}));
     EXPECT_EQ(only<Expect>(R"({"expect": "x", "near": 1})").within, 1e-4);
     EXPECT_TRUE(only<Expect>(R"({"expect": "segments.3.length", "equals": 0.5})").measure == Measure::Equals);
-    EXPECT_TRUE(only<Expect>(R"({"expect": "mode", "equals": {"a": [null]}})").value ==
-                Json({{"a", {nullptr}}}));
+    EXPECT_EQ(*only<Expect>(R"({"expect": "mode", "equals": {"a": [null]}})").value,
+              Json({{"a", {nullptr}}}));
     EXPECT_TRUE(only<Expect>(R"({"expect": "x", "below": 1})").measure == Measure::Below);
     EXPECT_TRUE(only<Expect>(R"({"expect": "x", "above": -1.5})").measure == Measure::Above);
 }

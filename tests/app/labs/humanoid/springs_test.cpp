@@ -387,7 +387,7 @@ TEST_F(HumanoidCurves, AJumpingJointIsReported) {
         for (const Incident& each : told) {
             if (each.kind != Incident::Kind::Jump) continue;
             ++marks;
-            EXPECT_EQ(each.name, curve().at("jumped")) << "the joint itself";
+            EXPECT_EQ(each.name, curve().at("jumped").get<std::string>()) << "the joint itself";
         }
         EXPECT_TRUE(curve().at("jumped").is_string());
         EXPECT_EQ(humanoid_part(reopened()).curves, part().curves);
