@@ -29,6 +29,7 @@ std::string parse_reason(std::string_view what, std::string_view token) {
     const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
     const std::string_view unexpected = "unexpected ";
     std::string reason;
+    if (says("empty input")) return "unexpected end of input";
     if (says("number overflow"))
         reason = "number too large: ";
     else if (says("invalid literal"))

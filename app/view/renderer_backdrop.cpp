@@ -23,7 +23,7 @@ Backdrop::~Backdrop() {
     glDeleteRenderbuffers(1, &colour_);
 }
 
-int Backdrop::draw_directly(const Key& key, const Palette& palette, const Frame& frame) const {
+int Backdrop::draw_into_cache(const Key& key, const Palette& palette, const Frame& frame) const {
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, frame.framebuffer_size.x, frame.framebuffer_size.y);
     int calls = background_.draw(palette, frame);
@@ -47,7 +47,7 @@ void Backdrop::cache(const Key& key, const Palette& palette, const Frame& frame)
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size_.x, size_.y);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
     }
-    cached_calls_ = draw_directly(key, palette, frame);
+    cached_calls_ = draw_into_cache(key, palette, frame);
 }
 
 int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
@@ -60,12 +60,6 @@ int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, cons
                   frame.pixel_ratio,
                   frame.grid,
                   frame.dither};
-    const bool still = last_ == key;
-    last_ = key;
-    if (!still) {
-        glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-        return draw_directly(key, palette, frame);
-    }
     if (cached_ != key) cache(key, palette, frame);
     cached_ = key;
     const glm::ivec2 size = frame.framebuffer_size;

@@ -1,8 +1,8 @@
 // The background gradient and the grid on the ground, behind all strokes, cached while the camera is still.
 //
 // On a software rasteriser these two take longer than the rest of a small scene, and do not change while the
-// user drags a chain or watches a rope swing. When a second frame in a row asks for the same backdrop it is
-// drawn into a buffer, and copied from there from then on. Copying gives the same bits as drawing.
+// user drags a chain or watches a rope swing. They are drawn into a buffer, and copied from there into every
+// frame: drawing into frames of another format could round differently.
 #pragma once
 
 #include <array>
@@ -67,14 +67,14 @@ class Backdrop {
         bool grid, dither;
         bool operator==(const Key&) const = default;
     };
-    int draw_directly(const Key& key, const Palette& palette, const Frame& frame) const;
+    int draw_into_cache(const Key& key, const Palette& palette, const Frame& frame) const;
     void cache(const Key& key, const Palette& palette, const Frame& frame);
 
     BackgroundPass background_;
     GridPass grid_;
     GLuint framebuffer_ = 0, colour_ = 0;
     glm::ivec2 size_{0};
-    std::optional<Key> last_, cached_;
+    std::optional<Key> cached_;
     int cached_calls_ = 0;  ///< the draw calls of the cached backdrop
 };
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/system/environment.hpp"
 #include "app/window/keys.hpp"
 #include "app/window/offscreen_window.hpp"
 
@@ -33,9 +34,16 @@ std::string take_error() {
 struct Library {
     Library() {
         glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
+#ifdef GLFW_PLATFORM  // GLFW 3.4 prefers Wayland, whose library complains on stderr where this folder is not
+                      // set
+        if (environment_variable("XDG_RUNTIME_DIR").empty() && glfwPlatformSupported(GLFW_PLATFORM_X11))
+            glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() != GLFW_TRUE) throw std::runtime_error("no display: " + take_error());
     }
-    ~Library() { glfwTerminate(); }
+    ~Library() {
+        glfwTerminate();
+    }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 };

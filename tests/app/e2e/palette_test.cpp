@@ -145,6 +145,7 @@ TEST_F(PaletteTest, OpensOnTheLastCommandAndRunsNothingUnasked) {
 TEST_F(PaletteTest, AClickOnARowChoosesIt) {
     const Theme theme = workspace().settings.theme;
     open().type("theme");
+    wait(2);
     const glm::vec2 first(420, 127);
     click(first);
     EXPECT_FALSE(is_open());

@@ -61,7 +61,10 @@ TEST_P(Golden, OsmesaDraws) {
     if (renewal != Renewal::None && !keep) renew_golden(picture(), actual.picture);
     if (renewal != Renewal::None) write(texts, actual.panels);
     EXPECT_TRUE(looks_like(actual.picture, picture(), name() + ".osmesa"));
-    EXPECT_EQ(read(texts), actual.panels) << "the panels' texts; tests/app/golden/renew";
+    if (places_are_those_of_goldens)
+        EXPECT_EQ(read(texts), actual.panels) << "the panels' texts; tests/app/golden/renew";
+    else
+        EXPECT_EQ(without_places(read(texts)), without_places(actual.panels));
 }
 
 TEST_P(Golden, EglDraws) {

@@ -73,6 +73,8 @@ void FrameRecorder::item(const ImVec4& box, unsigned id, int flags) {
     begin();
     if (id == 0) return;
     const ImGuiContext& context = *ImGui::GetCurrentContext();
+    for (const ImGuiAxis axis : {ImGuiAxis_X, ImGuiAxis_Y})  // newer versions add scrollbars as items
+        if (id == ImGui::GetWindowScrollbarID(context.CurrentWindow, axis)) return;
     record_.items.push_back({context.CurrentWindow,
                              id,
                              {{box.x, box.y}, {box.z, box.w}},
