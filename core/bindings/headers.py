@@ -42,6 +42,11 @@ def find_body(kind, name):
 
 
 def enumerators(name):
+    if name.count("::") > 1:  # within a struct: its enumerators, in one line
+        _, body = find_body("struct", name.rsplit("::", 1)[0])
+        found = re.search(rf"enum class {name.split('::')[-1]}\b[^{{]*\{{ (.*?) \}}", "\n".join(body)) or \
+            stop(f"no public header has {name}")
+        return "", [(value, "") for value in found[1].split(", ")]
     comment, body = find_body("enum class", name)
     values, help_text = [], {}
     for line in body:
@@ -86,7 +91,11 @@ TABLES = {table["struct"]: table for table in json.loads((BINDINGS / "tables.jso
 
 def row_comment(row, said, output=False, null=""):
     """Unit, range and default, then help: "m, 0 to 1e9, unset. Pole target"."""
+    unit = re.escape(row.get("unit") or "no unit")
+    said = re.sub(rf",? ?(?:(?<!\w){unit}, )?(?:each coordinate )?(?:up to|[-\w]+ to) -?(?:max|min)_\w+(?: - 1)?", "", said)
+    said = re.sub(rf"^{unit}(?:, |$)|, {unit}$", "", said)
     facts, said = row_facts(row, said, output, null)
+    said = re.sub(r"^(?:Seconds|Metres)$", "", said)
     return ", ".join(facts) + (". " if facts and said else "") + (said[:1].upper() + said[1:] if facts else said)
 
 

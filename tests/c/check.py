@@ -12,6 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 HEADER = ROOT / "core/include/tendril/c.h"
 INCLUDE = ROOT / "core/include"
+EXAMPLES = {"ik": "Converged, knee at 0.100 0.562 0.282\n", "many": "0 refused; chain 7: Converged\n",
+            "rope": "the hand is at 0.60, the end 0.97 m below it\n", "signal": "1.500 m after a second\n"}
 STRICT = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
 
 
@@ -38,23 +40,29 @@ def expect_arm(output):
 
 
 def header(folder, c_compiler, cpp_compiler):
-    """Compiles alone as C and as C++, without a warning."""
-    for name in ("only.c", "only.cpp"):
-        (folder / name).write_text("#include <tendril/c.h>\n")
+    """Each compiles alone as C and as C++, without a warning."""
+    headers = ["c.h", *(f"c/{path.name}" for path in sorted((INCLUDE / "tendril/c").glob("*.h")))]
+    for name in headers:
+        for ending in ("c", "cpp"):
+            (folder / f"{Path(name).stem}.{ending}").write_text(f"#include <tendril/{name}>\n")
     for compiler in sorted({c_compiler, *filter(shutil.which, ("gcc", "clang", "x86_64-w64-mingw32-gcc"))}):
         for standard in ("c99", "c11", "c17"):
-            run(compiler, f"-std={standard}", *STRICT, "-fsyntax-only", f"-I{INCLUDE}", folder / "only.c")
+            run(compiler, f"-std={standard}", *STRICT, "-fsyntax-only", f"-I{INCLUDE}", *folder.glob("*.c"))
     for compiler in sorted({cpp_compiler, *filter(shutil.which, ("g++", "clang++"))}):
-        run(compiler, "-std=c++20", *STRICT, "-fsyntax-only", f"-I{INCLUDE}", folder / "only.cpp")
+        run(compiler, "-std=c++20", *STRICT, "-fsyntax-only", f"-I{INCLUDE}", *folder.glob("*.cpp"))
 
 
 def page(folder, c_compiler, library):
-    """The first page's program compiles as it stands there, and reaches."""
-    source, _ = first_page(folder)
-    library = Path(library)
-    run(c_compiler, "-std=c99", *STRICT, f"-I{INCLUDE}", source, "-o", folder / "arm", library,
-        f"-Wl,-rpath,{library.parent}")
-    expect_arm(run(folder / "arm"))
+    """The first page's program and those of the rooms compile as they stand there, and say what they should."""
+    def said_by(source):
+        run(c_compiler, "-std=c99", *STRICT, f"-I{INCLUDE}", source, "-o", folder / "program", library,
+            f"-Wl,-rpath,{Path(library).parent}")
+        return run(folder / "program")
+
+    expect_arm(said_by(first_page(folder)[0]))
+    examples = {path.stem: said_by(path) for path in sorted((ROOT / "core/bindings/c/examples").glob("*.c"))}
+    if examples != EXAMPLES:
+        sys.exit(f"the examples said {examples}")
 
 
 def cases_of(path):
@@ -79,6 +87,15 @@ def reference(folder, path, c_program, cpp_program):
         status = by_c[3 * i].split()[1]
         if status != case["expect"]["status"]:
             sys.exit(f"{case['name']}: {status} instead of {case['expect']['status']}")
+
+
+def rope(folder, path, program):
+    """A C program hangs ropes as deep as the catenaries of the reference."""
+    cases = cases_of(path)["catenary"]
+    sags = run(program, input="".join(f"{case['span']} {case['length']} {case['segments']}\n" for case in cases)).split()
+    for case, sag in zip(cases, map(float, sags), strict=True):
+        if abs(sag / case["sag"] - 1) > case["relative_tolerance"]:
+            sys.exit(f"{case}: the rope sags by {sag}")
 
 
 def ctypes_(folder, path, library, cpp_program):
@@ -178,5 +195,5 @@ def current(folder, tables):
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
-        {"header": header, "page": page, "reference": reference, "ctypes": ctypes_, "symbols": symbols, "package": package,
+        {"header": header, "page": page, "reference": reference, "rope": rope, "ctypes": ctypes_, "symbols": symbols, "package": package,
          "current": current}[sys.argv[1]](Path(temporary), *sys.argv[2:])

@@ -85,6 +85,19 @@ TEST(CStruct, OfAnImpossibleSizeIsRefusedByName) {
     EXPECT_STREQ(arm.error.message, "ik_solve: options has size 0; make it by tendril_ik_options_default()");
 }
 
+TEST(CStruct, OfAProgramNewerThanTheLibraryIsRefusedAsThat) {
+    TwinArm arm({0.5f, 0.4f, 0.3f});
+    struct Newer {
+        tendril_ik_options options;
+        double more;
+    } newer;
+    tendril_default(TENDRIL_STRUCT_IK_OPTIONS, &newer, sizeof newer);
+    EXPECT_EQ(newer.options.max_iterations, 100);
+    EXPECT_EQ(newer.more, 0.0);
+    EXPECT_EQ(arm.solve_c({0.3f, 0.6f, 0.0f}, &newer.options), TENDRIL_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(arm.error.message, "compiled for one newer than"), nullptr) << arm.error.message;
+}
+
 TEST(CStruct, NamesTheElementThatItRefuses) {
     TwinArm arm({0.5f, 0.4f});
     tendril_ik_limit limits[2] = {tendril_ik_limit_default(), tendril_ik_limit_default()};
@@ -104,11 +117,10 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
     const auto kind = static_cast<tendril_struct>(GetParam());
     alignas(8) std::byte object[1024];
     const std::size_t count = tendril_field_count(kind);
-    if (count == 0) return;  // bytes
-    std::uint32_t size = 0;
-    tendril_default(kind, object, sizeof object);
-    std::memcpy(&size, object, sizeof size);
+    if (count == 0) return;  // bytes, or no kind yet
+    const std::size_t size = tendril_struct_size(kind);
     ASSERT_GT(size, 4u);
+    tendril_default(kind, object, size);
     for (std::size_t i = 0; i < count; ++i) {
         tendril_error error{};
         tendril_field field;
@@ -133,8 +145,8 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
                             read[axis] == static_cast<double>(static_cast<float>(given[axis])));
         }
         if (field.choices == nullptr && field.whole && field.high == 1.0)
-            continue;                          // a flag takes any whole number
-        if (std::isinf(field.high)) continue;  // a refused solve's residual
+            continue;                                               // a flag takes any whole number
+        if (std::isinf(field.high) || field.high > 1e17) continue;  // a refused solve's residual; a count
         const double beyond[4] = {field.high * 2.0 + 1.0, 0.0, 0.0, field.high + 1.0};
         EXPECT_EQ(tendril_set(kind, object, field.name, beyond, &error), TENDRIL_INVALID_ARGUMENT);
         EXPECT_NE(std::strstr(error.message, field.name), nullptr) << error.message;
@@ -149,8 +161,7 @@ TEST_P(CNames, SetInRangeReadBackOutOfRangeRefused) {
     double read[4];
     EXPECT_EQ(tendril_get(kind, object, "no_such_member", read, &error), TENDRIL_NOT_FOUND);
 }
-INSTANTIATE_TEST_SUITE_P(, CNames,
-                         testing::Range(1, static_cast<int>(TENDRIL_STRUCT_SIGNAL_MOTION_STATE) + 1));
+INSTANTIATE_TEST_SUITE_P(, CNames, testing::Range(1, 100));
 
 TEST(CNamesOf, EnumerationsAreTheLibrarys) {
     EXPECT_STREQ(tendril_ik_method_name(TENDRIL_IK_METHOD_JACOBIAN_TRANSPOSE),

@@ -123,9 +123,9 @@ std::span<Cpp> list(Call& call, const Place& place, C* elements, std::size_t cou
         if (count > 0 || !may_be_null) call.refuse(TENDRIL_NULL_ARGUMENT, place, "is NULL");
         return {};
     }
-    if (count > most_elements) {
-        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has %zu elements; the maximum is %zu", count,
-                    most_elements);
+    constexpr std::size_t most = sizeof(Cpp) == 1 ? most_elements * 1024 : most_elements;
+    if (count > most) {
+        call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has %zu elements; the maximum is %zu", count, most);
         return {};
     }
     return {reinterpret_cast<Cpp*>(elements), count};

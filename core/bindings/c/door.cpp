@@ -1,5 +1,7 @@
 #include "door.hpp"
 
+#include "tendril/version.hpp"
+
 namespace tendril::door {
 
 std::uint32_t size_of(Call& call, const Place& place, const void* given, const Kind& kind) noexcept {
@@ -13,6 +15,10 @@ std::uint32_t size_of(Call& call, const Place& place, const void* given, const K
     if (size >= sizeof size && size <= kind.size && size % kind.align == 0) return size;
     if (size == 0)
         call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has size 0; make it by %s_default()", kind.name);
+    else if (size > kind.size && size <= most_bytes && size % kind.align == 0)
+        call.refuse(TENDRIL_INVALID_ARGUMENT, place,
+                    "has %u bytes, but %u in this library: the program was compiled for one newer than %s",
+                    size, kind.size, version_string);
     else
         call.refuse(TENDRIL_INVALID_ARGUMENT, place, "has size %u; a %s has %u bytes", size, kind.name,
                     kind.size);

@@ -1,7 +1,9 @@
 // Calls that take another form in C: they return a Result, and states are bytes.
 #pragma once
 
+#include "batch.hpp"
 #include "handles.hpp"
+#include "rope.hpp"
 #include "structs.hpp"
 #include "tendril/ik/solver.hpp"
 #include "tendril/ik/two_bone.hpp"

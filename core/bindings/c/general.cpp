@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "checksum.hpp"
 #include "handles.hpp"
 #include "structs.hpp"
 #include "tendril/version.hpp"
@@ -97,14 +98,6 @@ struct SavedHead {
 };
 static_assert(sizeof(SavedHead) == TENDRIL_SAVED_BYTES(0));
 
-/// FNV-1a: changing any one byte changes it.
-std::uint64_t checksum(const std::byte* bytes, std::size_t size, std::uint32_t kind) noexcept {
-    std::uint64_t sum = 14695981039346656037u ^ kind;
-    for (std::size_t i = 0; i < size; ++i)
-        sum = (sum ^ static_cast<std::uint64_t>(bytes[i])) * 1099511628211u;
-    return sum;
-}
-
 /// The struct's number. Refuses one whose states cannot be saved.
 std::uint32_t saved_kind(Call& call, const tendril_struct& which) noexcept {
     const std::uint32_t number = number_of(which);
@@ -158,9 +151,15 @@ void tendril_default(tendril_struct kind, void* object, size_t size) {
     if (known == nullptr || size < sizeof(std::uint32_t)) return;
     alignas(8) std::byte full[most_bytes];
     known->fresh(full);
-    const std::uint32_t given = static_cast<std::uint32_t>(std::min<std::size_t>(size, known->size));
+    // A larger struct comes from a newer program. It keeps its size, so that its first use is refused.
+    const auto given = static_cast<std::uint32_t>(size);
     std::memcpy(full, &given, sizeof given);
-    std::memcpy(object, full, given);
+    std::memcpy(object, full, std::min<std::size_t>(size, known->size));
+}
+
+size_t tendril_struct_size(tendril_struct kind) {
+    const Kind* const known = kind_of(kind);
+    return known != nullptr ? known->size : 0;
 }
 
 size_t tendril_field_count(tendril_struct kind) {

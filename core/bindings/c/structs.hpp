@@ -161,11 +161,13 @@ void give(const typename Of<C>::Cpp& value, C* given) noexcept {
 template <class C>
 class Out {
   public:
-    Out(Call& call, const Place& place, C* given) noexcept : given_(given) {
-        size_of(call, place, given, Of<C>::kind);
+    Out(Call& call, const Place& place, C* given, bool may_be_null = false) noexcept : given_(given) {
+        if (given != nullptr || !may_be_null) size_of(call, place, given, Of<C>::kind);
     }
     typename Of<C>::Cpp value{};
-    void give() noexcept { door::give(value, given_); }
+    void give() noexcept {
+        if (given_ != nullptr) door::give(value, given_);
+    }
 
   private:
     C* given_;
