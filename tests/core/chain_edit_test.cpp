@@ -373,7 +373,7 @@ TEST(ChainRefusals, AnEmptyChainAcceptsAddOnly) {
 TEST(ChainRefusals, BadDirections) {
     Chain chain = straight(2);
     for (const glm::vec3 bad : {glm::vec3(0), glm::vec3(1), glm::vec3(2, 0, 0), glm::vec3(0.99f, 0, 0),
-                                glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)})
+                                glm::vec3(1.0012f, 0, 0), glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)})
         expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.set_default_direction(bad); });
 }
 

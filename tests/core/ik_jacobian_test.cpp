@@ -150,6 +150,19 @@ TEST(IkJacobian, TheSvdDampsTheNearlySingularDirection) {
     EXPECT_GT(distance(along.back(), tip - glm::vec3(0.01f, 0.0f, 0.0f)), 0.008);
 }
 
+/// A step that would turn a joint further is scaled down as a whole.
+TEST(IkJacobian, AStepTurnsNoJointByMoreThanARadian) {
+    Random random(14);
+    const Lengths lengths(4, 1.0f);
+    for (int k = 0; k < 200; ++k) {
+        Joints joints = some_pose(lengths, random);
+        const glm::vec3 first = joints[1];
+        KeptSolver(lengths).solve(Method::JacobianTranspose, joints, some_direction(random) * 3.9f,
+                                  {.tolerance = 0.0f, .max_iterations = 1});
+        EXPECT_GE(glm::dot(first, joints[1]), std::cos(1.0f) - 1e-4f);
+    }
+}
+
 TEST(IkJacobian, AllJointsTurnAtOnce) {
     Random random(12);
     const Lengths lengths(4, 1.0f);

@@ -104,6 +104,14 @@ TEST(RopeCatenary, WithoutASpanItHangsStraightDown) {
     }
 }
 
+TEST(RopeCatenary, StartsWithSegmentsOfItsLengthHoweverFew) {
+    for (const int segments : {2, 3, 8}) {
+        World world;
+        hang_between(world, 1.0f, 2.0f, segments);
+        EXPECT_LE(stretch(world), 1e-6) << segments;
+    }
+}
+
 /// The measured excess sag of relaxation: it must not change.
 TEST(RopeCatenary, PlainRelaxationSagsByItsKnownAmount) {
     struct Measured {
