@@ -175,6 +175,22 @@ TEST_F(FeetWalk, AFigureThatStartsOnStairsStandsOnThem) {
     }
 }
 
+TEST_F(FeetWalk, AStraightLegBendsForwardThoughItsKneeIsAside) {
+    std::vector<Node> nodes = skeleton.nodes();
+    nodes[*skeleton.find("LeftLowerLeg")].rest.translation.x += 0.004;
+    nodes[*skeleton.find("LeftFoot")].rest.translation.x -= 0.004;
+    const Skeleton bowed = *Skeleton::make(nodes);
+    Walker walker(bowed, {.duration = 1.0});
+    FeetState state;
+    WalkOptions walk;
+    walk.from.z = 0.2;
+    walker.step(*Ground::stairs(0.15, 0.3), walk, 0, state);
+    const glm::dvec3 middle =
+        0.5 * (walker.now(Bone::LeftUpperLeg).position + walker.now(Bone::LeftFoot).position);
+    const glm::dvec3 bend = walker.now(Bone::LeftLowerLeg).position - middle;
+    EXPECT_GT(bend.z, 5.0 * std::abs(bend.x)) << bend.x << " " << bend.z;
+}
+
 TEST_F(FeetWalk, AFootTiltsWithTheGroundUpToALimit) {
     Walker walker(skeleton, {.duration = 1.0});
     const auto turn_on = [&](double degrees) {
