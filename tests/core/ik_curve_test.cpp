@@ -347,6 +347,14 @@ TEST(IkCurve, AJumpIsAnotherCrossingForAnyMotion) {
     EXPECT_GE(jumps, 50);
 }
 
+/// The curve bends hard at one end of its pieces only, and the joint goes on to the next crossing.
+TEST(IkCurve, AJumpWithinOnePieceIsReported) {
+    Placed chain({0.38f});
+    const CurveOptions options{.kind = CurveKind::BSpline};
+    EXPECT_FALSE(chain.place({{0, 0, 0}, {0.21f, 0, 0}, {0.42f, 0, 0}}, options).jumped);
+    EXPECT_EQ(chain.place({{0, 0, 0}, {0.42f, -0.06f, 0.15f}, {0.42f, 0, 0}}, options).jumped, 1u);
+}
+
 TEST(IkCurve, DegenerateCurvesGiveFiniteChainsOfTheirLengths) {
     Random random(31);
     std::vector<Points> curves{{{1, 2, 3}, {1, 2, 3}},
