@@ -1,5 +1,5 @@
 // Every row of the tables below: a value that is set is saved, loaded and undone; a value out of range is
-// refused by the command and in a file, by name, and changes nothing.
+// refused in a file, by name. labs_test.cpp has the same for commands.
 #include "app/fields/fields.hpp"
 
 #include <imgui.h>
@@ -369,13 +369,6 @@ TEST_P(EveryField, IsSavedLoadedAndUndone) {
     EXPECT_EQ(saved(), wanted);
 }
 
-TEST_P(EveryField, IsRefusedOutOfItsRangeAndChangesNothing) {
-    for (const Json& value : bad(field()))
-        EXPECT_TRUE(
-            test::says(refused(of().command, given(value)), of().command + (" " + file_name(field()))))
-            << value;
-}
-
 TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
     std::string place = std::string("labs.") + of().lab + of().path + "." + file_name(field());
     std::ranges::replace(place, '/', '.');
@@ -383,63 +376,15 @@ TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
     for (const Json& value : bad(field())) expect_scene_refused(pointer, value, place);
 }
 
-/// Tables that a command uses as a whole: the created object does not keep them.
-struct Shape {
-    const char* lab;
-    const char* command;
-    std::span<const Field> fields;
-    std::span<const FieldText> texts;
-    Json with;  ///< further required arguments
-};
-
-template <class Struct, class Texts = Struct>
-Shape shape_of(const char* lab, const char* command, Json with) {
-    return {lab, command, fields<Struct>(), field_texts<Texts>(), std::move(with)};
-}
-
-std::vector<Shape> shapes() {
-    const Json up{0, 1, 0}, right{1, 0, 0}, down{0, -1, 0};
-    return {shape_of<rope::RopeShape, BodySettings>(rope_lab, "rope.add", {{"from", up}, {"to", right}}),
-            shape_of<rope::ClothShape, BodySettings>(rope_lab, "rope.cloth.add",
-                                                     {{"corner", up}, {"along", right}, {"down", down}}),
-            shape_of<rope::HairShape, BodySettings>(rope_lab, "rope.hair.add", {{"centre", up}}),
-            shape_of<rope::HairPatch, BodySettings>(rope_lab, "rope.hair.add", {{"centre", up}}),
-            shape_of<BodySettings>(rope_lab, "rope.set", {{"rope", "rope"}}),
-            shape_of<AttachmentShape>(humanoid_lab, "humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}})};
-}
-
-class EveryShape : public LabTest {
-  protected:
-    EveryShape() : LabTest(rope_lab) {}
-};
-
-TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
-    for (const Shape& shape : shapes()) {
-        run("lab.open", {{"name", shape.lab}});
-        if (shape.lab == std::string_view(rope_lab)) {
-            run("rope.clear");
-            run("rope.add", {{"from", {0, 1, 0}}, {"to", {1, 0, 0}}, {"name", "rope"}});
-        }
-        for (const Field& field : shape.fields)
-            for (const Json& value : bad(field)) {
-                Json given = shape.with;
-                given[field.name] = value;
-                EXPECT_TRUE(
-                    test::says(refused(shape.command, given), std::string(shape.command) + " " + field.name))
-                    << shape.command << value;
-            }
-    }
-}
-
 /// The texts of a lab's tables.
 std::vector<std::span<const FieldText>> texts_of(std::string_view lab) {
     std::vector<std::span<const FieldText>> all;
     for (const Table& table : tables())
         if (lab == table.lab) all.push_back(table.texts);
-    for (const Shape& shape : shapes())
-        if (lab == shape.lab) all.push_back(shape.texts);
     if (lab == chain_lab) all.insert(all.end(), {field_texts<ik::AngleLimit>(), field_texts<TraceView>()});
-    if (lab == humanoid_lab) all.insert(all.end(), {field_texts<HandCurve>(), field_texts<FileSpace>()});
+    if (lab == humanoid_lab)
+        all.insert(all.end(),
+                   {field_texts<HandCurve>(), field_texts<FileSpace>(), field_texts<AttachmentShape>()});
     if (lab == linkage_lab) all.push_back(field_texts<ik::SketchPoint>());
     if (lab == linkage_lab)
         for (const MechanismKind& kind : mechanism_kinds()) all.push_back(kind.texts);

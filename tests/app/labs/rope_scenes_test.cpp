@@ -203,7 +203,6 @@ TEST_F(RopeCollisionTest, Refusals) {
     run("rope.hair.add", {{"name", "beard"}, {"centre", {0, 1, 0}}, {"radius", 0.1}});
     expect_refused("rope.collide", {{"a", "line"}, {"b", "beard"}, {"on", true}}, {"hair"});
     expect_refused("rope.collide", {{"a", "line"}, {"b", "none"}, {"on", true}}, {"none"});
-    expect_refused("rope.collide", {{"a", "line"}, {"b", "other"}}, {"on"});
 }
 
 // The Rope lab in scene files: bit for bit, and faults with their position.

@@ -201,7 +201,6 @@ TEST_F(RopeSet, ABodyHasAColour) {
     EXPECT_EQ(colour("cloth"), usual);
     run("undo");
     EXPECT_EQ(colour("cloth"), pink);
-    refuses("rope.set", {{"rope", "rope"}, {"colour", "red"}}, "rope.set colour pink red");
 }
 
 TEST_F(RopeSet, RenamesABody) {

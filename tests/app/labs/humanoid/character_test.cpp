@@ -100,7 +100,6 @@ TEST_F(HumanoidCharacter, ANodeBelongsToASingleBone) {
     expect_refused("humanoid.map", {{"bone", "LeftLowerArm"}, {"node", "LeftShoulder"}},
                    {"LeftLowerArm must be a node that is not above any of its parent bones"});
     expect_refused("humanoid.map", {{"bone", "LeftHand"}, {"node", "Tail"}}, {"no node \"Tail\""});
-    expect_refused("humanoid.map", {{"bone", "Tail"}, {"node", "Hips"}}, {"bone must be one of Hips"});
 }
 
 TEST_F(HumanoidCharacter, RestsInTPoseOnRequest) {
@@ -153,7 +152,6 @@ TEST_F(HumanoidCharacter, StandsAlongTheAxisThatTheUserPicks) {
     run("undo");
     EXPECT_EQ(state().at("character").at("up"), "y");
     EXPECT_LT(glm::distance(bone("RightHand"), hand), 1e-12);
-    expect_refused("humanoid.up", {{"axis", "north"}}, {"axis must be one of"});
     run("humanoid.load");
     expect_refused("humanoid.up", {{"axis", "z"}}, {"stick figure"});
 }
@@ -262,7 +260,6 @@ TEST_F(HumanoidSkinning, SpreadsTwistUnlessLinearBlendingIsChosen) {
     EXPECT_GT(spread, 0.95f * untwisted);
     run("humanoid.view", {{"skin", "solid"}});
     EXPECT_EQ(state().at("view").at("skinning"), "linear");
-    expect_refused("humanoid.view", {{"skinning", "dual_quaternion"}}, {"skinning", "twist_spread"});
     run("humanoid.view", {{"skinning", "twist_spread"}});
     EXPECT_EQ(girth(drawn()), spread);
 }
