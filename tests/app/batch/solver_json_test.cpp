@@ -77,7 +77,7 @@ TEST(SolverJson, AnglesAreSavedBitForBitAnyNumberOfTimes) {
 TEST(SolverJson, RefusalsNameThePlaceAndTheValue) {
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"max_deg", "far"}}), "limits.2.max_deg number far"));
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"min_deg", 20}, {"max_deg", 10}}),
-                           "limits.2 hinge min over max 20.0 10.0"));
+                           "limits.2 hinge min over max 20.0, 10.0"));
     EXPECT_TRUE(test::says(refusal({{"kind", "ball_and_socket"}, {"twist_min_deg", 2}, {"twist_max_deg", 1}}),
                            "limits.2 twist_min over twist_max 2.0 1.0"));
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}), "limits.2 axis length"));

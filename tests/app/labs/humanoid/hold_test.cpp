@@ -74,6 +74,9 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     run("humanoid.target", {{"effector", "right_hand"}});
     run("humanoid.hold", {{"hands", "right"}});
     run("humanoid.target", {{"effector", "left_hand"}});
+    const glm::dvec3 there = vector(hold().at("position")) + glm::dvec3(0.05, 0, 0);
+    run("humanoid.hold", {{"to", {there.x, there.y, there.z}}});
+    EXPECT_LT(glm::distance(vector(hold().at("position")), there), 1e-9) << "what is held moves";
     run("humanoid.release");
     EXPECT_TRUE(hold().is_null());
     expect_refused("humanoid.release", Json::object(), {"hold nothing"});

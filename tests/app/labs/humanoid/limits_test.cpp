@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -148,9 +149,19 @@ TEST_F(HumanoidLimits, OfOneJointAreLearnedFromTheClips) {
     EXPECT_EQ(joint().at("limits"), "motion");
 }
 
+TEST_F(HumanoidLimits, RowsAreNamedAsTheLimbTurns) {
+    test::PanelReader reader;
+    for (const auto& [bone, rows] : {std::pair("LeftUpperArm", "adult clips up back twist"),
+                                     {"RightUpperArm", "adult clips up forward twist"},
+                                     {"LeftUpperLeg", "adult clips forward left twist"},
+                                     {"LeftFoot", "adult clips up left twist"},
+                                     {"Spine", "adult clips forward right twist"}}) {
+        select(bone);
+        EXPECT_TRUE(test::says(reader.inspector(lab(), workspace), rows)) << bone;
+    }
+}
+
 TEST_F(HumanoidLimits, LearningIsRefusedWithoutData) {
-    expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Tail"}},
-                   {"bone must be one of Hips, Spine"});
     expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Hips"}},
                    {"the Hips joint has no limits"});
     run("humanoid.map", {{"bone", "LeftToes"}});
