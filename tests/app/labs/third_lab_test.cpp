@@ -33,6 +33,10 @@ TEST_F(ThirdLab, ItsPictureShowsItsHandlesWhereTheyAre) {
         4 * (static_cast<std::size_t>(pixel_at.y) * static_cast<std::size_t>(picture.size.x) +
              static_cast<std::size_t>(pixel_at.x));
     EXPECT_GT(picture.rgba[pixel], picture.rgba[pixel + 2]) << "the ball is orange, the ground is not";
+    const Lab& lab = *app_.labs().find("spring");
+    const Bounds around = lab.bounds(app_.workspace(), false);  // which the view frames
+    for (const app::Handle& each : lab.handles(app_.workspace()))
+        EXPECT_LE(glm::distance(each.frame.position, around.centre), 1.001f * around.radius) << each.name;
 }
 
 TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {

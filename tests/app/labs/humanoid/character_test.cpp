@@ -145,13 +145,6 @@ TEST_F(HumanoidCharacter, StandsAlongTheAxisThatTheUserPicks) {
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand end") << "corrections stay";
     run("humanoid.clip", {{"index", 0}, {"time", 0.5}});
     EXPECT_NEAR(bone("Hips").y, 0.5, 1e-12);
-    EXPECT_EQ(lab().state(reopened()), state());
-    run("humanoid.up", {{"axis", "-y"}});
-    run("undo");
-    run("undo");
-    run("undo");
-    EXPECT_EQ(state().at("character").at("up"), "y");
-    EXPECT_LT(glm::distance(bone("RightHand"), hand), 1e-12);
     run("humanoid.load");
     expect_refused("humanoid.up", {{"axis", "z"}}, {"stick figure"});
 }
