@@ -31,7 +31,8 @@ def first_sentence(comment):
 
 def find_body(kind, name):
     """The comment before a struct or enumeration and the lines of its body."""
-    short = re.escape(name.split("::")[-1].split("<")[0])
+    name = name.split("<")[0]
+    short = re.escape(name.split("::")[-1])
     end = "^" if kind == "struct" else ""
     for text in HEADERS.values():
         found = re.search(rf"((?:^///.*\n)*)(?:^template.*\n)?^{kind} {short}\b[^;{{]*\{{([^\0]*?){end}\}};", text, re.M)

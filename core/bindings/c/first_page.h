@@ -92,6 +92,7 @@ typedef struct tendril_error {
 
 typedef struct tendril_vec2f { float x, y; } tendril_vec2f;
 typedef struct tendril_vec3f { float x, y, z; } tendril_vec3f;
+typedef struct tendril_vec2 { double x, y; } tendril_vec2;
 typedef struct tendril_vec3 { double x, y, z; } tendril_vec3;
 typedef struct tendril_quatf { float x, y, z, w; } tendril_quatf;
 typedef struct tendril_quat { double x, y, z, w; } tendril_quat;
@@ -103,7 +104,7 @@ typedef enum tendril_struct {
 
 /* A member of a struct, as the library checks it. */
 typedef struct tendril_field {
-    int32_t values;             /* number of values: 1; 3 for a point, 4 for a rotation */
+    int32_t values;             /* number of values: 1; 2 for a pair, 3 for a point, 4 for a rotation */
     const char* name;
     const char* unit;           /* "" for none */
     const char* const* choices; /* names of an enumeration's values, or NULL */

@@ -55,6 +55,8 @@ void with_numbers(MemberType type, Body&& body) noexcept {
             return body(float{}, 1);
         case MemberType::F64:
             return body(double{}, 1);
+        case MemberType::Vec2:
+            return body(double{}, 2);
         case MemberType::Vec3f:
             return body(float{}, 3);
         case MemberType::Vec3:

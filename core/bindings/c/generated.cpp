@@ -3,25 +3,24 @@
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Advance>() noexcept {
-    static constexpr Field rows[] = {field<&tendril::rope::Advance::substeps>("substeps", {0.0, 1e+09}, ""),
-        field<&tendril::rope::Advance::passes>("passes", {0.0, 1e+09}, ""),
-        field<&tendril::rope::Advance::shortened>("shortened", {0.0, 1e+09}, ""),
-        field<&tendril::rope::Advance::dropped>("dropped", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::work>("work", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::unresolved>("unresolved", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::unconverged>("unconverged", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::fallbacks>("fallbacks", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::suspended>("suspended", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::held_back>("held_back", {0.0, 1e+15}, ""),
-        field<&tendril::rope::Advance::contact_loss>("contact_loss", {0.0, 1e+09}, "J")};
+    static constexpr Field rows[] = {field<&tendril::rope::Advance::substeps>("substeps", {0, 1e+09}, ""),
+        field<&tendril::rope::Advance::passes>("passes", {0, 1e+09}, ""),
+        field<&tendril::rope::Advance::shortened>("shortened", {0, 1e+09}, ""),
+        field<&tendril::rope::Advance::dropped>("dropped", {0, 1e+15}, ""), field<&tendril::rope::Advance::work>("work",
+        {0, 1e+15}, ""), field<&tendril::rope::Advance::unresolved>("unresolved", {0, 1e+15}, ""),
+        field<&tendril::rope::Advance::unconverged>("unconverged", {0, 1e+15}, ""),
+        field<&tendril::rope::Advance::fallbacks>("fallbacks", {0, 1e+15}, ""),
+        field<&tendril::rope::Advance::suspended>("suspended", {0, 1e+15}, ""),
+        field<&tendril::rope::Advance::held_back>("held_back", {0, 1e+15}, ""),
+        field<&tendril::rope::Advance::contact_loss>("contact_loss", {0, 1e+09}, "J")};
     return rows;
 }
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::ManySummary>() noexcept {
-    static constexpr Field rows[] = {field<&tendril::ik::ManySummary::invalid>("invalid", {0.0, 1e+09}, ""),
-        field<&tendril::ik::ManySummary::scalar_fallbacks>("scalar_fallbacks", {0.0, 1e+09}, ""),
-        field<&tendril::ik::ManySummary::first_invalid>("first_invalid", {0.0, 1e+09}, "")};
+    static constexpr Field rows[] = {field<&tendril::ik::ManySummary::invalid>("invalid", {0, 1e+09}, ""),
+        field<&tendril::ik::ManySummary::scalar_fallbacks>("scalar_fallbacks", {0, 1e+09}, ""),
+        field<&tendril::ik::ManySummary::first_invalid>("first_invalid", {0, 1e+09}, "")};
     return rows;
 }
 
@@ -30,9 +29,27 @@ static constexpr const char* ik_many_report_status[] = {"Converged", "Stretched"
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::ManyReport>() noexcept {
     static constexpr Field rows[] = {field<&tendril::ik::ManyReport::status>("status", ik_many_report_status),
-        field<&tendril::ik::ManyReport::iterations>("iterations", {0.0, 1e+09}, ""),
-        field<&tendril::ik::ManyReport::residual>("residual", {0.0, 1e+09}, "m"),
+        field<&tendril::ik::ManyReport::iterations>("iterations", {0, 1e+09}, ""),
+        field<&tendril::ik::ManyReport::residual>("residual", {0, 1e+09}, "m"),
         field<&tendril::ik::ManyReport::scalar_fallback>("scalar_fallback")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SpringState<glm::dvec3>>() noexcept {
+    static constexpr Field rows[] = {field<&tendril::signal::SpringState<glm::dvec3>::value>("value", {-1e+09, 1e+09},
+        ""), field<&tendril::signal::SpringState<glm::dvec3>::velocity>("velocity", {-1e+09, 1e+09}, "1/s"),
+        field<&tendril::signal::SpringState<glm::dvec3>::previous_target>("previous_target", {-1e+09, 1e+09}, ""),
+        field<&tendril::signal::SpringState<glm::dvec3>::started>("started")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SpringState<glm::dquat>>() noexcept {
+    static constexpr Field rows[] = {field<&tendril::signal::SpringState<glm::dquat>::value>("value", {0, 1e+09}, ""),
+        field<&tendril::signal::SpringState<glm::dquat>::velocity>("velocity", {-1e+09, 1e+09}, "rad/s"),
+        field<&tendril::signal::SpringState<glm::dquat>::previous_target>("previous_target", {0, 1e+09}, ""),
+        field<&tendril::signal::SpringState<glm::dquat>::started>("started")};
     return rows;
 }
 
@@ -259,6 +276,104 @@ struct Of<tendril_ik_many_report> {
     using Cpp = ik::ManyReport;
     static void read(Call&, const Place&, const tendril_ik_many_report&, Cpp&, Scratch&);
     static void write(const Cpp&, tendril_ik_many_report&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_output_state> {
+    using Cpp = signal::OutputState;
+    static void read(Call&, const Place&, const tendril_signal_output_state&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_output_state&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_inertialize_state> {
+    using Cpp = signal::InertializeState;
+    static void read(Call&, const Place&, const tendril_signal_inertialize_state&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_inertialize_state&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_scale_bias_clamp> {
+    using Cpp = signal::ScaleBiasClamp;
+    static void read(Call&, const Place&, const tendril_signal_scale_bias_clamp&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_scale_bias_clamp&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_interp_to> {
+    using Cpp = signal::InterpTo;
+    static void read(Call&, const Place&, const tendril_signal_interp_to&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_interp_to&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_interp_to_exact> {
+    using Cpp = signal::InterpToExact;
+    static void read(Call&, const Place&, const tendril_signal_interp_to_exact&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_interp_to_exact&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_exponential_decay> {
+    using Cpp = signal::ExponentialDecay;
+    static void read(Call&, const Place&, const tendril_signal_exponential_decay&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_exponential_decay&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_rate_limit> {
+    using Cpp = signal::RateLimit;
+    static void read(Call&, const Place&, const tendril_signal_rate_limit&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_rate_limit&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_dead_zone> {
+    using Cpp = signal::DeadZone;
+    static void read(Call&, const Place&, const tendril_signal_dead_zone&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_dead_zone&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_hysteresis> {
+    using Cpp = signal::Hysteresis;
+    static void read(Call&, const Place&, const tendril_signal_hysteresis&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_hysteresis&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_smooth_damp> {
+    using Cpp = signal::SmoothDamp;
+    static void read(Call&, const Place&, const tendril_signal_smooth_damp&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_smooth_damp&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_spring_semi_implicit> {
+    using Cpp = signal::SpringSemiImplicit;
+    static void read(Call&, const Place&, const tendril_signal_spring_semi_implicit&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_spring_semi_implicit&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_inertialize> {
+    using Cpp = signal::Inertialize;
+    static void read(Call&, const Place&, const tendril_signal_inertialize&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_inertialize&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_spring_vec3_state> {
+    using Cpp = signal::SpringState<glm::dvec3>;
+    static void read(Call&, const Place&, const tendril_signal_spring_vec3_state&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_spring_vec3_state&) noexcept;
+    static const Kind kind;
+};
+template <>
+struct Of<tendril_signal_spring_quat_state> {
+    using Cpp = signal::SpringState<glm::dquat>;
+    static void read(Call&, const Place&, const tendril_signal_spring_quat_state&, Cpp&, Scratch&);
+    static void write(const Cpp&, tendril_signal_spring_quat_state&) noexcept;
     static const Kind kind;
 };
 
@@ -973,6 +1088,291 @@ static constexpr Member ik_many_report_members[] = {{0, offsetof(tendril_ik_many
 const Kind Of<tendril_ik_many_report>::kind = kind_of_struct<tendril_ik_many_report>("tendril_ik_many_report", true,
     ik_many_report_members);
 
+void Of<tendril_signal_output_state>::read(Call&, const Place&, const tendril_signal_output_state& from, Cpp& to,
+    Scratch&) {
+    copy(from.value, to.value);
+    copy(from.started, to.started);
+}
+void Of<tendril_signal_output_state>::write(const Cpp& from, tendril_signal_output_state& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.value, to.value);
+    copy(from.started, to.started);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_output_state) == 24);
+static constexpr Member signal_output_state_members[] = {{0, offsetof(tendril_signal_output_state, value),
+    MemberType::F64}, {1, offsetof(tendril_signal_output_state, started), MemberType::Flag}};
+const Kind Of<tendril_signal_output_state>::kind =
+    kind_of_struct<tendril_signal_output_state>("tendril_signal_output_state", true, signal_output_state_members);
+
+void Of<tendril_signal_inertialize_state>::read(Call&, const Place&, const tendril_signal_inertialize_state& from,
+    Cpp& to, Scratch&) {
+    copy(from.started, to.started);
+    copy(from.jumped, to.jumped);
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.input, to.input);
+    copy(from.offset, to.offset);
+    copy(from.offset_velocity, to.offset_velocity);
+}
+void Of<tendril_signal_inertialize_state>::write(const Cpp& from, tendril_signal_inertialize_state& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.started, to.started);
+    copy(from.jumped, to.jumped);
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.input, to.input);
+    copy(from.offset, to.offset);
+    copy(from.offset_velocity, to.offset_velocity);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_inertialize_state) == 56);
+static constexpr Member signal_inertialize_state_members[] = {{0, offsetof(tendril_signal_inertialize_state, started),
+    MemberType::Flag}, {1, offsetof(tendril_signal_inertialize_state, jumped), MemberType::Flag}, {2,
+    offsetof(tendril_signal_inertialize_state, value), MemberType::F64}, {3, offsetof(tendril_signal_inertialize_state,
+    velocity), MemberType::F64}, {4, offsetof(tendril_signal_inertialize_state, input), MemberType::F64}, {5,
+    offsetof(tendril_signal_inertialize_state, offset), MemberType::F64}, {6, offsetof(tendril_signal_inertialize_state,
+    offset_velocity), MemberType::F64}};
+const Kind Of<tendril_signal_inertialize_state>::kind =
+    kind_of_struct<tendril_signal_inertialize_state>("tendril_signal_inertialize_state", true,
+    signal_inertialize_state_members);
+
+void Of<tendril_signal_scale_bias_clamp>::read(Call&, const Place&, const tendril_signal_scale_bias_clamp& from,
+    Cpp& to, Scratch&) {
+    copy(from.map_range, to.map_range);
+    copy(from.in_range, to.in_range);
+    copy(from.out_range, to.out_range);
+    copy(from.scale, to.scale);
+    copy(from.bias, to.bias);
+    copy(from.clamp, to.clamp);
+    copy(from.clamp_min, to.clamp_min);
+    copy(from.clamp_max, to.clamp_max);
+    copy(from.interp, to.interp);
+    copy(from.speed_increasing, to.speed_increasing);
+    copy(from.speed_decreasing, to.speed_decreasing);
+}
+void Of<tendril_signal_scale_bias_clamp>::write(const Cpp& from, tendril_signal_scale_bias_clamp& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.map_range, to.map_range);
+    copy(from.in_range, to.in_range);
+    copy(from.out_range, to.out_range);
+    copy(from.scale, to.scale);
+    copy(from.bias, to.bias);
+    copy(from.clamp, to.clamp);
+    copy(from.clamp_min, to.clamp_min);
+    copy(from.clamp_max, to.clamp_max);
+    copy(from.interp, to.interp);
+    copy(from.speed_increasing, to.speed_increasing);
+    copy(from.speed_decreasing, to.speed_decreasing);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_scale_bias_clamp) == 104);
+static constexpr Member signal_scale_bias_clamp_members[] = {{0, offsetof(tendril_signal_scale_bias_clamp, map_range),
+    MemberType::Flag}, {1, offsetof(tendril_signal_scale_bias_clamp, in_range), MemberType::Vec2}, {2,
+    offsetof(tendril_signal_scale_bias_clamp, out_range), MemberType::Vec2}, {3,
+    offsetof(tendril_signal_scale_bias_clamp, scale), MemberType::F64}, {4, offsetof(tendril_signal_scale_bias_clamp,
+    bias), MemberType::F64}, {5, offsetof(tendril_signal_scale_bias_clamp, clamp), MemberType::Flag}, {6,
+    offsetof(tendril_signal_scale_bias_clamp, clamp_min), MemberType::F64}, {7,
+    offsetof(tendril_signal_scale_bias_clamp, clamp_max), MemberType::F64}, {8,
+    offsetof(tendril_signal_scale_bias_clamp, interp), MemberType::Flag}, {9, offsetof(tendril_signal_scale_bias_clamp,
+    speed_increasing), MemberType::F64}, {10, offsetof(tendril_signal_scale_bias_clamp, speed_decreasing),
+    MemberType::F64}};
+const Kind Of<tendril_signal_scale_bias_clamp>::kind =
+    kind_of_struct<tendril_signal_scale_bias_clamp>("tendril_signal_scale_bias_clamp", true,
+    signal_scale_bias_clamp_members);
+
+void Of<tendril_signal_interp_to>::read(Call&, const Place&, const tendril_signal_interp_to& from, Cpp& to, Scratch&) {
+    copy(from.speed, to.speed);
+}
+void Of<tendril_signal_interp_to>::write(const Cpp& from, tendril_signal_interp_to& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.speed, to.speed);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_interp_to) == 16);
+static constexpr Member signal_interp_to_members[] = {{0, offsetof(tendril_signal_interp_to, speed), MemberType::F64}};
+const Kind Of<tendril_signal_interp_to>::kind = kind_of_struct<tendril_signal_interp_to>("tendril_signal_interp_to",
+    true, signal_interp_to_members);
+
+void Of<tendril_signal_interp_to_exact>::read(Call&, const Place&, const tendril_signal_interp_to_exact& from, Cpp& to,
+    Scratch&) {
+    copy(from.speed, to.speed);
+}
+void Of<tendril_signal_interp_to_exact>::write(const Cpp& from, tendril_signal_interp_to_exact& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.speed, to.speed);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_interp_to_exact) == 16);
+static constexpr Member signal_interp_to_exact_members[] = {{0, offsetof(tendril_signal_interp_to_exact, speed),
+    MemberType::F64}};
+const Kind Of<tendril_signal_interp_to_exact>::kind =
+    kind_of_struct<tendril_signal_interp_to_exact>("tendril_signal_interp_to_exact", true,
+    signal_interp_to_exact_members);
+
+void Of<tendril_signal_exponential_decay>::read(Call&, const Place&, const tendril_signal_exponential_decay& from,
+    Cpp& to, Scratch&) {
+    copy(from.halflife, to.halflife);
+}
+void Of<tendril_signal_exponential_decay>::write(const Cpp& from, tendril_signal_exponential_decay& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.halflife, to.halflife);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_exponential_decay) == 16);
+static constexpr Member signal_exponential_decay_members[] = {{0, offsetof(tendril_signal_exponential_decay, halflife),
+    MemberType::F64}};
+const Kind Of<tendril_signal_exponential_decay>::kind =
+    kind_of_struct<tendril_signal_exponential_decay>("tendril_signal_exponential_decay", true,
+    signal_exponential_decay_members);
+
+void Of<tendril_signal_rate_limit>::read(Call&, const Place&, const tendril_signal_rate_limit& from, Cpp& to, Scratch&)
+    {
+    copy(from.rise, to.rise);
+    copy(from.fall, to.fall);
+}
+void Of<tendril_signal_rate_limit>::write(const Cpp& from, tendril_signal_rate_limit& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.rise, to.rise);
+    copy(from.fall, to.fall);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_rate_limit) == 24);
+static constexpr Member signal_rate_limit_members[] = {{0, offsetof(tendril_signal_rate_limit, rise), MemberType::F64},
+    {1, offsetof(tendril_signal_rate_limit, fall), MemberType::F64}};
+const Kind Of<tendril_signal_rate_limit>::kind = kind_of_struct<tendril_signal_rate_limit>("tendril_signal_rate_limit",
+    true, signal_rate_limit_members);
+
+void Of<tendril_signal_dead_zone>::read(Call&, const Place&, const tendril_signal_dead_zone& from, Cpp& to, Scratch&) {
+    copy(from.width, to.width);
+}
+void Of<tendril_signal_dead_zone>::write(const Cpp& from, tendril_signal_dead_zone& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.width, to.width);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_dead_zone) == 16);
+static constexpr Member signal_dead_zone_members[] = {{0, offsetof(tendril_signal_dead_zone, width), MemberType::F64}};
+const Kind Of<tendril_signal_dead_zone>::kind = kind_of_struct<tendril_signal_dead_zone>("tendril_signal_dead_zone",
+    true, signal_dead_zone_members);
+
+void Of<tendril_signal_hysteresis>::read(Call&, const Place&, const tendril_signal_hysteresis& from, Cpp& to, Scratch&)
+    {
+    copy(from.low, to.low);
+    copy(from.high, to.high);
+}
+void Of<tendril_signal_hysteresis>::write(const Cpp& from, tendril_signal_hysteresis& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.low, to.low);
+    copy(from.high, to.high);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_hysteresis) == 24);
+static constexpr Member signal_hysteresis_members[] = {{0, offsetof(tendril_signal_hysteresis, low), MemberType::F64},
+    {1, offsetof(tendril_signal_hysteresis, high), MemberType::F64}};
+const Kind Of<tendril_signal_hysteresis>::kind = kind_of_struct<tendril_signal_hysteresis>("tendril_signal_hysteresis",
+    true, signal_hysteresis_members);
+
+void Of<tendril_signal_smooth_damp>::read(Call&, const Place&, const tendril_signal_smooth_damp& from, Cpp& to,
+    Scratch&) {
+    copy(from.smooth_time, to.smooth_time);
+    copy(from.max_speed, to.max_speed);
+}
+void Of<tendril_signal_smooth_damp>::write(const Cpp& from, tendril_signal_smooth_damp& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.smooth_time, to.smooth_time);
+    copy(from.max_speed, to.max_speed);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_smooth_damp) == 24);
+static constexpr Member signal_smooth_damp_members[] = {{0, offsetof(tendril_signal_smooth_damp, smooth_time),
+    MemberType::F64}, {1, offsetof(tendril_signal_smooth_damp, max_speed), MemberType::F64}};
+const Kind Of<tendril_signal_smooth_damp>::kind =
+    kind_of_struct<tendril_signal_smooth_damp>("tendril_signal_smooth_damp", true, signal_smooth_damp_members);
+
+void Of<tendril_signal_spring_semi_implicit>::read(Call&, const Place&, const tendril_signal_spring_semi_implicit& from,
+    Cpp& to, Scratch&) {
+    copy(from.strength, to.strength);
+    copy(from.critical_damping, to.critical_damping);
+}
+void Of<tendril_signal_spring_semi_implicit>::write(const Cpp& from, tendril_signal_spring_semi_implicit& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.strength, to.strength);
+    copy(from.critical_damping, to.critical_damping);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_spring_semi_implicit) == 24);
+static constexpr Member signal_spring_semi_implicit_members[] = {{0, offsetof(tendril_signal_spring_semi_implicit,
+    strength), MemberType::F64}, {1, offsetof(tendril_signal_spring_semi_implicit, critical_damping), MemberType::F64}};
+const Kind Of<tendril_signal_spring_semi_implicit>::kind =
+    kind_of_struct<tendril_signal_spring_semi_implicit>("tendril_signal_spring_semi_implicit", true,
+    signal_spring_semi_implicit_members);
+
+void Of<tendril_signal_inertialize>::read(Call&, const Place&, const tendril_signal_inertialize& from, Cpp& to,
+    Scratch&) {
+    copy(from.halflife, to.halflife);
+    copy(from.threshold, to.threshold);
+}
+void Of<tendril_signal_inertialize>::write(const Cpp& from, tendril_signal_inertialize& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.halflife, to.halflife);
+    copy(from.threshold, to.threshold);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_inertialize) == 24);
+static constexpr Member signal_inertialize_members[] = {{0, offsetof(tendril_signal_inertialize, halflife),
+    MemberType::F64}, {1, offsetof(tendril_signal_inertialize, threshold), MemberType::F64}};
+const Kind Of<tendril_signal_inertialize>::kind =
+    kind_of_struct<tendril_signal_inertialize>("tendril_signal_inertialize", true, signal_inertialize_members);
+
+void Of<tendril_signal_spring_vec3_state>::read(Call&, const Place&, const tendril_signal_spring_vec3_state& from,
+    Cpp& to, Scratch&) {
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.previous_target, to.previous_target);
+    copy(from.started, to.started);
+}
+void Of<tendril_signal_spring_vec3_state>::write(const Cpp& from, tendril_signal_spring_vec3_state& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.previous_target, to.previous_target);
+    copy(from.started, to.started);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_spring_vec3_state) == 88);
+static constexpr Member signal_spring_vec3_state_members[] = {{0, offsetof(tendril_signal_spring_vec3_state, value),
+    MemberType::Vec3}, {1, offsetof(tendril_signal_spring_vec3_state, velocity), MemberType::Vec3}, {2,
+    offsetof(tendril_signal_spring_vec3_state, previous_target), MemberType::Vec3}, {3,
+    offsetof(tendril_signal_spring_vec3_state, started), MemberType::Flag}};
+const Kind Of<tendril_signal_spring_vec3_state>::kind =
+    kind_of_struct<tendril_signal_spring_vec3_state>("tendril_signal_spring_vec3_state", true,
+    signal_spring_vec3_state_members);
+
+void Of<tendril_signal_spring_quat_state>::read(Call&, const Place&, const tendril_signal_spring_quat_state& from,
+    Cpp& to, Scratch&) {
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.previous_target, to.previous_target);
+    copy(from.started, to.started);
+}
+void Of<tendril_signal_spring_quat_state>::write(const Cpp& from, tendril_signal_spring_quat_state& to) noexcept {
+    to = {};  // borrowed lists and parts stay with the caller
+    to.size = sizeof to;
+    copy(from.value, to.value);
+    copy(from.velocity, to.velocity);
+    copy(from.previous_target, to.previous_target);
+    copy(from.started, to.started);
+}
+static_assert(sizeof(void*) != 8 || sizeof(tendril_signal_spring_quat_state) == 104);
+static constexpr Member signal_spring_quat_state_members[] = {{0, offsetof(tendril_signal_spring_quat_state, value),
+    MemberType::Quat}, {1, offsetof(tendril_signal_spring_quat_state, velocity), MemberType::Vec3}, {2,
+    offsetof(tendril_signal_spring_quat_state, previous_target), MemberType::Quat}, {3,
+    offsetof(tendril_signal_spring_quat_state, started), MemberType::Flag}};
+const Kind Of<tendril_signal_spring_quat_state>::kind =
+    kind_of_struct<tendril_signal_spring_quat_state>("tendril_signal_spring_quat_state", true,
+    signal_spring_quat_state_members);
+
 const Kind* kind_of(const tendril_struct& which) noexcept {
     static const Kind* const kinds[] = {nullptr, &Of<tendril_ik_limit>::kind, &Of<tendril_ik_angle_limit>::kind,
         &Of<tendril_ik_chain_plane>::kind, &Of<tendril_ik_options>::kind, &Of<tendril_ik_report>::kind,
@@ -983,7 +1383,14 @@ const Kind* kind_of(const tendril_struct& which) noexcept {
         &Of<tendril_rope_cloth_shape>::kind, &Of<tendril_rope_body_info>::kind, &Of<tendril_rope_tie_shape>::kind,
         &Of<tendril_rope_sphere>::kind, &Of<tendril_rope_capsule>::kind, &Of<tendril_rope_plane>::kind,
         &Of<tendril_rope_box>::kind, &Of<tendril_rope_drive>::kind, &Of<tendril_rope_report>::kind,
-        &Of<tendril_ik_many_options>::kind, &Of<tendril_ik_many_summary>::kind, &Of<tendril_ik_many_report>::kind};
+        &Of<tendril_ik_many_options>::kind, &Of<tendril_ik_many_summary>::kind, &Of<tendril_ik_many_report>::kind,
+        &Of<tendril_signal_output_state>::kind, &Of<tendril_signal_inertialize_state>::kind,
+        &Of<tendril_signal_scale_bias_clamp>::kind, &Of<tendril_signal_interp_to>::kind,
+        &Of<tendril_signal_interp_to_exact>::kind, &Of<tendril_signal_exponential_decay>::kind,
+        &Of<tendril_signal_rate_limit>::kind, &Of<tendril_signal_dead_zone>::kind, &Of<tendril_signal_hysteresis>::kind,
+        &Of<tendril_signal_smooth_damp>::kind, &Of<tendril_signal_spring_semi_implicit>::kind,
+        &Of<tendril_signal_inertialize>::kind, &Of<tendril_signal_spring_vec3_state>::kind,
+        &Of<tendril_signal_spring_quat_state>::kind};
     const std::uint32_t at = number_of(which);
     return at < std::size(kinds) ? kinds[at] : nullptr;
 }
@@ -2106,6 +2513,11 @@ tendril_code tendril_rope_load(tendril_rope_world world, const void* bytes, size
         run(call, [&] { return door::load((*world_taken), bytes_); });
     });
 }
+tendril_code tendril_signal_window_destroy(tendril_signal_window object) {
+    return door::call("signal_window_destroy", nullptr, [&](Call& call) {
+        Taken<door::Window, Scratch>(call, {"object"}, object).destroy();
+    });
+}
 tendril_code tendril_signal_spring_step(const tendril_signal_spring* spring, tendril_signal_spring_state* state,
     double target, double seconds, double* value, tendril_error* error) {
     return door::call("signal_spring_step", error, [&](Call& call) {
@@ -2127,6 +2539,87 @@ tendril_code tendril_signal_spring_step(const tendril_signal_spring* spring, ten
         *value = value_;
     });
 }
+tendril_code tendril_signal_spring_vec3_step(const tendril_signal_spring* spring, tendril_vec3 force,
+    tendril_signal_spring_vec3_state* state, tendril_vec3 target, double seconds, tendril_vec3* value,
+    tendril_error* error) {
+    return door::call("signal_spring_vec3_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Spring<double> spring_{};
+        read_struct(call, {"spring"}, spring, spring_, scratch);
+        check(call, {"spring"}, spring_);
+        const glm::dvec3 force_ = value_of(force);
+        signal::SpringState<glm::dvec3> state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const glm::dvec3 target_ = value_of(target);
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        glm::dvec3 value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::spring_step(spring_, force_, state_, target_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_of(value_);
+    });
+}
+tendril_code tendril_signal_spring_quat_step(const tendril_signal_spring* spring, tendril_vec3 force,
+    tendril_signal_spring_quat_state* state, tendril_quat target, double seconds, tendril_quat* value,
+    tendril_error* error) {
+    return door::call("signal_spring_quat_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Spring<double> spring_{};
+        read_struct(call, {"spring"}, spring, spring_, scratch);
+        check(call, {"spring"}, spring_);
+        const glm::dvec3 force_ = value_of(force);
+        signal::SpringState<glm::dquat> state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const glm::dquat target_ = value_of(target);
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        glm::dquat value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::spring_step(spring_, force_, state_, target_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_of(value_);
+    });
+}
+tendril_code tendril_signal_springs_start(const float* strength, const float* damping, const float* force,
+    const float* amount, const float* target, float* value, float* velocity, float* previous, size_t n,
+    tendril_error* error) {
+    return door::call("signal_springs_start", error, [&](Call& call) {
+        const auto strength_ = list<const float>(call, {"strength"}, strength, n, false);
+        const auto damping_ = list<const float>(call, {"damping"}, damping, n, false);
+        const auto force_ = list<const float>(call, {"force"}, force, force != nullptr ? n : 0, true);
+        const auto amount_ = list<const float>(call, {"amount"}, amount, amount != nullptr ? n : 0, true);
+        const auto target_ = list<const float>(call, {"target"}, target, n, false);
+        const auto value_ = list<float>(call, {"value"}, value, n, false);
+        const auto velocity_ = list<float>(call, {"velocity"}, velocity, n, false);
+        const auto previous_ = list<float>(call, {"previous"}, previous, n, false);
+        if (call.refused()) return;
+        run(call, [&] { return signal::start_springs({strength_, damping_, force_, amount_, target_, value_, velocity_,
+            previous_}); });
+    });
+}
+tendril_code tendril_signal_springs_step(const float* strength, const float* damping, const float* force,
+    const float* amount, const float* target, float* value, float* velocity, float* previous, size_t n, double seconds,
+    tendril_error* error) {
+    return door::call("signal_springs_step", error, [&](Call& call) {
+        const auto strength_ = list<const float>(call, {"strength"}, strength, n, false);
+        const auto damping_ = list<const float>(call, {"damping"}, damping, n, false);
+        const auto force_ = list<const float>(call, {"force"}, force, force != nullptr ? n : 0, true);
+        const auto amount_ = list<const float>(call, {"amount"}, amount, amount != nullptr ? n : 0, true);
+        const auto target_ = list<const float>(call, {"target"}, target, n, false);
+        const auto value_ = list<float>(call, {"value"}, value, n, false);
+        const auto velocity_ = list<float>(call, {"velocity"}, velocity, n, false);
+        const auto previous_ = list<float>(call, {"previous"}, previous, n, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return signal::step_springs({strength_, damping_, force_, amount_, target_, value_, velocity_,
+            previous_}, seconds_); });
+    });
+}
 tendril_code tendril_signal_one_euro_step(const tendril_signal_one_euro* filter, tendril_signal_motion_state* state,
     double input, double seconds, double* value, tendril_error* error) {
     return door::call("signal_one_euro_step", error, [&](Call& call) {
@@ -2146,5 +2639,473 @@ tendril_code tendril_signal_one_euro_step(const tendril_signal_one_euro* filter,
         if (call.refused()) return;
         give(state_, state);
         *value = value_;
+    });
+}
+tendril_code tendril_signal_one_euro_filter(const tendril_signal_one_euro* filter, tendril_signal_motion_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error) {
+    return door::call("signal_one_euro_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::OneEuro filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::MotionState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_scale_bias_clamp_step(const tendril_signal_scale_bias_clamp* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_scale_bias_clamp_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::ScaleBiasClamp filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_scale_bias_clamp_filter(const tendril_signal_scale_bias_clamp* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_scale_bias_clamp_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::ScaleBiasClamp filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_interp_to_step(const tendril_signal_interp_to* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_interp_to_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::InterpTo filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_interp_to_filter(const tendril_signal_interp_to* filter, tendril_signal_output_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error) {
+    return door::call("signal_interp_to_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::InterpTo filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_interp_to_exact_step(const tendril_signal_interp_to_exact* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_interp_to_exact_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::InterpToExact filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_interp_to_exact_filter(const tendril_signal_interp_to_exact* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_interp_to_exact_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::InterpToExact filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_exponential_decay_step(const tendril_signal_exponential_decay* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_exponential_decay_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::ExponentialDecay filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_exponential_decay_filter(const tendril_signal_exponential_decay* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_exponential_decay_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::ExponentialDecay filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_rate_limit_step(const tendril_signal_rate_limit* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_rate_limit_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::RateLimit filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_rate_limit_filter(const tendril_signal_rate_limit* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_rate_limit_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::RateLimit filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_dead_zone_step(const tendril_signal_dead_zone* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_dead_zone_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::DeadZone filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_dead_zone_filter(const tendril_signal_dead_zone* filter, tendril_signal_output_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error) {
+    return door::call("signal_dead_zone_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::DeadZone filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_hysteresis_step(const tendril_signal_hysteresis* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_hysteresis_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Hysteresis filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_hysteresis_filter(const tendril_signal_hysteresis* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_hysteresis_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Hysteresis filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::OutputState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_smooth_damp_step(const tendril_signal_smooth_damp* filter,
+    tendril_signal_motion_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_smooth_damp_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::SmoothDamp filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::MotionState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_smooth_damp_filter(const tendril_signal_smooth_damp* filter,
+    tendril_signal_motion_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_smooth_damp_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::SmoothDamp filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::MotionState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_spring_semi_implicit_step(const tendril_signal_spring_semi_implicit* filter,
+    tendril_signal_motion_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_spring_semi_implicit_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::SpringSemiImplicit filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::MotionState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_spring_semi_implicit_filter(const tendril_signal_spring_semi_implicit* filter,
+    tendril_signal_motion_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_spring_semi_implicit_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::SpringSemiImplicit filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::MotionState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_inertialize_step(const tendril_signal_inertialize* filter,
+    tendril_signal_inertialize_state* state, double input, double seconds, double* value, tendril_error* error) {
+    return door::call("signal_inertialize_step", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Inertialize filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::InertializeState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step(filter_, state_, input_, seconds_, value_); });
+        if (call.refused()) return;
+        give(state_, state);
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_inertialize_filter(const tendril_signal_inertialize* filter,
+    tendril_signal_inertialize_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error) {
+    return door::call("signal_inertialize_filter", error, [&](Call& call) {
+        Scratch scratch;
+        signal::Inertialize filter_{};
+        read_struct(call, {"filter"}, filter, filter_, scratch);
+        check(call, {"filter"}, filter_);
+        signal::InertializeState state_{};
+        read_struct(call, {"state"}, state, state_, scratch);
+        check(call, {"state"}, state_);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all(filter_, state_, inputs_, seconds_, outputs_); });
+        if (call.refused()) return;
+        give(state_, state);
+    });
+}
+tendril_code tendril_signal_window_make(double window, tendril_signal_window* out, tendril_error* error) {
+    return door::call("signal_window_make", error, [&](Call& call) {
+        const double window_ = window;
+        if (out == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"out"}, "is NULL");
+        if (call.refused()) return;
+        make<Scratch>(call, out, door::make_window(window_));
+    });
+}
+tendril_code tendril_signal_window_step(tendril_signal_window window, double input, double seconds, double* value,
+    tendril_error* error) {
+    return door::call("signal_window_step", error, [&](Call& call) {
+        const Taken<door::Window, Scratch> window_taken(call, {"window"}, window);
+        const double input_ = input;
+        const double seconds_ = seconds;
+        if (value == nullptr) call.refuse(TENDRIL_NULL_ARGUMENT, {"value"}, "is NULL");
+        double value_{};
+        if (call.refused()) return;
+        run(call, [&] { return door::step((*window_taken).filter, (*window_taken).state, input_, seconds_, value_); });
+        if (call.refused()) return;
+        *value = value_;
+    });
+}
+tendril_code tendril_signal_window_filter(tendril_signal_window window, const double* inputs, double* outputs,
+    size_t count, double seconds, tendril_error* error) {
+    return door::call("signal_window_filter", error, [&](Call& call) {
+        const Taken<door::Window, Scratch> window_taken(call, {"window"}, window);
+        const auto inputs_ = list<const double>(call, {"inputs"}, inputs, count, false);
+        const auto outputs_ = list<double>(call, {"outputs"}, outputs, count, false);
+        const double seconds_ = seconds;
+        if (call.refused()) return;
+        run(call, [&] { return door::filter_all((*window_taken).filter, (*window_taken).state, inputs_, seconds_,
+            outputs_); });
+    });
+}
+tendril_code tendril_signal_window_reset(tendril_signal_window window, tendril_error* error) {
+    return door::call("signal_window_reset", error, [&](Call& call) {
+        const Taken<door::Window, Scratch> window_taken(call, {"window"}, window);
+        if (call.refused()) return;
+        (*window_taken).state = signal::MovingAverageState();
     });
 }

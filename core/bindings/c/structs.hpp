@@ -2,6 +2,7 @@
 // may be older and shorter: it is read over the defaults, and written only up to its own end.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,6 +17,12 @@
 namespace tendril::door {
 
 // Values. An optional number that is unset is NaN in C, an optional count -1.
+inline std::array<double, 2> value_of(tendril_vec2 v) noexcept {
+    return {v.x, v.y};
+}
+inline tendril_vec2 value_of(const std::array<double, 2>& v) noexcept {
+    return {v[0], v[1]};
+}
 inline glm::vec3 value_of(tendril_vec3f v) noexcept {
     return {v.x, v.y, v.z};
 }
@@ -88,7 +95,20 @@ void copy(const std::optional<From>& from, To& to) noexcept {
 }
 
 /// A member's type in a C struct.
-enum class MemberType : std::uint8_t { Flag, Choice, I32, U32, U64, F32, F64, Vec3f, Vec3, Quatf, Quat };
+enum class MemberType : std::uint8_t {
+    Flag,
+    Choice,
+    I32,
+    U32,
+    U64,
+    F32,
+    F64,
+    Vec2,
+    Vec3f,
+    Vec3,
+    Quatf,
+    Quat
+};
 
 /// A member that tendril_get and tendril_set reach by name.
 struct Member {

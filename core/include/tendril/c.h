@@ -95,6 +95,7 @@ typedef struct tendril_error {
 
 typedef struct tendril_vec2f { float x, y; } tendril_vec2f;
 typedef struct tendril_vec3f { float x, y, z; } tendril_vec3f;
+typedef struct tendril_vec2 { double x, y; } tendril_vec2;
 typedef struct tendril_vec3 { double x, y, z; } tendril_vec3;
 typedef struct tendril_quatf { float x, y, z, w; } tendril_quatf;
 typedef struct tendril_quat { double x, y, z, w; } tendril_quat;
@@ -128,12 +129,26 @@ typedef enum tendril_struct {
     TENDRIL_STRUCT_ROPE_REPORT,
     TENDRIL_STRUCT_IK_MANY_OPTIONS,
     TENDRIL_STRUCT_IK_MANY_SUMMARY,
-    TENDRIL_STRUCT_IK_MANY_REPORT
+    TENDRIL_STRUCT_IK_MANY_REPORT,
+    TENDRIL_STRUCT_SIGNAL_OUTPUT_STATE,
+    TENDRIL_STRUCT_SIGNAL_INERTIALIZE_STATE,
+    TENDRIL_STRUCT_SIGNAL_SCALE_BIAS_CLAMP,
+    TENDRIL_STRUCT_SIGNAL_INTERP_TO,
+    TENDRIL_STRUCT_SIGNAL_INTERP_TO_EXACT,
+    TENDRIL_STRUCT_SIGNAL_EXPONENTIAL_DECAY,
+    TENDRIL_STRUCT_SIGNAL_RATE_LIMIT,
+    TENDRIL_STRUCT_SIGNAL_DEAD_ZONE,
+    TENDRIL_STRUCT_SIGNAL_HYSTERESIS,
+    TENDRIL_STRUCT_SIGNAL_SMOOTH_DAMP,
+    TENDRIL_STRUCT_SIGNAL_SPRING_SEMI_IMPLICIT,
+    TENDRIL_STRUCT_SIGNAL_INERTIALIZE,
+    TENDRIL_STRUCT_SIGNAL_SPRING_VEC3_STATE,
+    TENDRIL_STRUCT_SIGNAL_SPRING_QUAT_STATE
 } tendril_struct;
 
 /* A member of a struct, as the library checks it. */
 typedef struct tendril_field {
-    int32_t values;             /* number of values: 1; 3 for a point, 4 for a rotation */
+    int32_t values;             /* number of values: 1; 2 for a pair, 3 for a point, 4 for a rotation */
     const char* name;
     const char* unit;           /* "" for none */
     const char* const* choices; /* names of an enumeration's values, or NULL */

@@ -74,14 +74,245 @@ typedef struct tendril_signal_motion_state {
 } tendril_signal_motion_state;
 TENDRIL_DEFAULT(tendril_signal_motion_state, TENDRIL_STRUCT_SIGNAL_MOTION_STATE)
 
+/* The state of a filter that remembers only its output. */
+typedef struct tendril_signal_output_state {
+    uint32_t size;
+    double value;       /* -1e+30 to 1e+30, default 0. The last output */
+    int32_t started;    /* 0 or 1, default 0. False: the next step is the first */
+    uint32_t reserved;  /* 0 */
+} tendril_signal_output_state;
+TENDRIL_DEFAULT(tendril_signal_output_state, TENDRIL_STRUCT_SIGNAL_OUTPUT_STATE)
+
+typedef struct tendril_signal_inertialize_state {
+    uint32_t size;
+    int32_t started;         /* 0 or 1, default 0 */
+    int32_t jumped;          /* 0 or 1, default 0. In the last step: the input's velocity is not known yet */
+    double value;            /* -1e+30 to 1e+30, default 0. The last output */
+    double velocity;         /* 1/s, -1e+30 to 1e+30, default 0. Output velocity in the last step */
+    double input;            /* -1e+30 to 1e+30, default 0. The last input */
+    double offset;           /* -1e+30 to 1e+30, default 0. Output minus input */
+    double offset_velocity;  /* 1/s, -1e+30 to 1e+30, default 0 */
+} tendril_signal_inertialize_state;
+TENDRIL_DEFAULT(tendril_signal_inertialize_state, TENDRIL_STRUCT_SIGNAL_INERTIALIZE_STATE)
+
+/* Numbers from -1e9 to 1e9, speeds from -1e6 to 1e6. */
+typedef struct tendril_signal_scale_bias_clamp {
+    uint32_t size;
+    int32_t map_range;        /* 0 or 1, default 0. 1 */
+    tendril_vec2 in_range;    /* -1e9 to 1e9, default 0 1 */
+    tendril_vec2 out_range;   /* -1e9 to 1e9, default 0 1 */
+    double scale;             /* -1e9 to 1e9, default 1. 2 */
+    double bias;              /* -1e9 to 1e9, default 0 */
+    int32_t clamp;            /* 0 or 1, default 0. 3 */
+    double clamp_min;         /* -1e9 to 1e9, default 0 */
+    double clamp_max;         /* -1e9 to 1e9, default 1 */
+    int32_t interp;           /* 0 or 1, default 0 */
+    double speed_increasing;  /* 1/s, -1e6 to 1e6, default 10 */
+    double speed_decreasing;  /* 1/s, -1e6 to 1e6, default 10 */
+} tendril_signal_scale_bias_clamp;
+TENDRIL_DEFAULT(tendril_signal_scale_bias_clamp, TENDRIL_STRUCT_SIGNAL_SCALE_BIAS_CLAMP)
+
+/* The same as filters: the state is the current value. */
+typedef struct tendril_signal_interp_to {
+    uint32_t size;
+    double speed;  /* 1/s, -1e6 to 1e6, default 10. -1e6 to 1e6 */
+} tendril_signal_interp_to;
+TENDRIL_DEFAULT(tendril_signal_interp_to, TENDRIL_STRUCT_SIGNAL_INTERP_TO)
+
+typedef struct tendril_signal_interp_to_exact {
+    uint32_t size;
+    double speed;  /* 1/s, -1e6 to 1e6, default 10. -1e6 to 1e6 */
+} tendril_signal_interp_to_exact;
+TENDRIL_DEFAULT(tendril_signal_interp_to_exact, TENDRIL_STRUCT_SIGNAL_INTERP_TO_EXACT)
+
+/* x += (input - x) (1 - 2^(-dt / halflife)): the remaining distance halves every halflife seconds, at any frame
+   rate. */
+typedef struct tendril_signal_exponential_decay {
+    uint32_t size;
+    double halflife;  /* s, 0 to 1e4, default 0.1. 0 (no smoothing) to 1e4 */
+} tendril_signal_exponential_decay;
+TENDRIL_DEFAULT(tendril_signal_exponential_decay, TENDRIL_STRUCT_SIGNAL_EXPONENTIAL_DECAY)
+
+/* Limits the speed, separately up and down. */
+typedef struct tendril_signal_rate_limit {
+    uint32_t size;
+    double rise;  /* 1/s, 0 to 1e9, default 1 */
+    double fall;  /* 1/s, 0 to 1e9, default 1 */
+} tendril_signal_rate_limit;
+TENDRIL_DEFAULT(tendril_signal_rate_limit, TENDRIL_STRUCT_SIGNAL_RATE_LIMIT)
+
+/* 0 within width of 0, sign(x) (|x| - width) outside. */
+typedef struct tendril_signal_dead_zone {
+    uint32_t size;
+    double width;  /* 0 to 1e9, default 0.1 */
+} tendril_signal_dead_zone;
+TENDRIL_DEFAULT(tendril_signal_dead_zone, TENDRIL_STRUCT_SIGNAL_DEAD_ZONE)
+
+/* 1 from high up, 0 from low down, unchanged in between, and 0 at first: a switch that does not flicker. */
+typedef struct tendril_signal_hysteresis {
+    uint32_t size;
+    double low;   /* -1e9 to 1e9, default 0.4. -1e9 to 1e9 */
+    double high;  /* -1e9 to 1e9, default 0.6 */
+} tendril_signal_hysteresis;
+TENDRIL_DEFAULT(tendril_signal_hysteresis, TENDRIL_STRUCT_SIGNAL_HYSTERESIS)
+
+/* Unity's Mathf.SmoothDamp (T. Lowe, "Critically Damped Ease-In/Ease-Out Smoothing", Game Programming Gems 4, 2004):
+   a critically damped spring with 1 / (1 + x + 0.48 x^2 + 0.235 x^3) for exp(-x), x = 2 dt / smooth_time, and the
+   distance clamped to max_speed * smooth_time. */
+typedef struct tendril_signal_smooth_damp {
+    uint32_t size;
+    double smooth_time;  /* s, 0 to 1e4, default 0.1. Under 1e-4 counts as 1e-4 */
+    double max_speed;    /* 1/s, 0 to 1e9, default 1e6 */
+} tendril_signal_smooth_damp;
+TENDRIL_DEFAULT(tendril_signal_smooth_damp, TENDRIL_STRUCT_SIGNAL_SMOOTH_DAMP)
+
+/* The spring found in most games: velocity first, then position (semi-implicit Euler). */
+typedef struct tendril_signal_spring_semi_implicit {
+    uint32_t size;
+    double strength;          /* Hz, 0 to 1e4, default 4 */
+    double critical_damping;  /* 0 to 1000, default 1 */
+} tendril_signal_spring_semi_implicit;
+TENDRIL_DEFAULT(tendril_signal_spring_semi_implicit, TENDRIL_STRUCT_SIGNAL_SPRING_SEMI_IMPLICIT)
+
+typedef struct tendril_signal_inertialize {
+    uint32_t size;
+    double halflife;   /* s, 0 to 1e4, default 0.1. 0 (jumps pass) to 1e4 */
+    double threshold;  /* 0 to 1e9, default 0.5. A larger change in one step is a jump */
+} tendril_signal_inertialize;
+TENDRIL_DEFAULT(tendril_signal_inertialize, TENDRIL_STRUCT_SIGNAL_INERTIALIZE)
+
+typedef struct tendril_signal_spring_vec3_state {
+    uint32_t size;
+    tendril_vec3 value;            /* -1e9 to 1e9. The last output */
+    tendril_vec3 velocity;         /* 1/s, -1e9 to 1e9 */
+    tendril_vec3 previous_target;  /* -1e9 to 1e9 */
+    int32_t started;               /* 0 to 1e9. False: the next step is the first */
+    uint32_t reserved;             /* 0 */
+} tendril_signal_spring_vec3_state;
+TENDRIL_DEFAULT(tendril_signal_spring_vec3_state, TENDRIL_STRUCT_SIGNAL_SPRING_VEC3_STATE)
+
+typedef struct tendril_signal_spring_quat_state {
+    uint32_t size;
+    tendril_quat value;            /* unit length. The last output */
+    tendril_vec3 velocity;         /* rad/s, -1e9 to 1e9. 1/s */
+    tendril_quat previous_target;  /* unit length */
+    int32_t started;               /* 0 to 1e9. False: the next step is the first */
+    uint32_t reserved;             /* 0 */
+} tendril_signal_spring_quat_state;
+TENDRIL_DEFAULT(tendril_signal_spring_quat_state, TENDRIL_STRUCT_SIGNAL_SPRING_QUAT_STATE)
+
+/* The mean of the last seconds, with memory for the samples in them. */
+typedef struct tendril_signal_window { uint32_t index, generation; } tendril_signal_window;
+tendril_code tendril_signal_window_destroy(tendril_signal_window object);
+
 /* Advances by `seconds` and returns the new value. Exact: stable at any frame time. The first step starts on the
    target. */
 tendril_code tendril_signal_spring_step(const tendril_signal_spring* spring, tendril_signal_spring_state* state,
     double target, double seconds, double* value, tendril_error* error);
 
-/* The 1 Euro filter: steady at rest, little lag in motion. */
+/* A spring for points and one for rotations, the short way round, as signal_spring_step. `force`: an acceleration,
+   1/s^2; for a rotation about each axis, rad/s^2; spring.force is not used. */
+tendril_code tendril_signal_spring_vec3_step(const tendril_signal_spring* spring, tendril_vec3 force,
+    tendril_signal_spring_vec3_state* state, tendril_vec3 target, double seconds, tendril_vec3* value,
+    tendril_error* error);
+tendril_code tendril_signal_spring_quat_step(const tendril_signal_spring* spring, tendril_vec3 force,
+    tendril_signal_spring_quat_state* state, tendril_quat target, double seconds, tendril_quat* value,
+    tendril_error* error);
+
+/* Thousands of springs in floats, by the vector unit: n numbers in each list. A point is three springs. Start puts
+   them at their targets, at rest. `force` and `amount` (target_velocity_amount) may be NULL: 0. A spring whose
+   numbers are refused stays as it is. */
+tendril_code tendril_signal_springs_start(const float* strength, const float* damping, const float* force,
+    const float* amount, const float* target, float* value, float* velocity, float* previous, size_t n,
+    tendril_error* error);
+tendril_code tendril_signal_springs_step(const float* strength, const float* damping, const float* force,
+    const float* amount, const float* target, float* value, float* velocity, float* previous, size_t n, double seconds,
+    tendril_error* error);
+
+/* Filters. Each has a _step for one input, and a _filter for a list that comes at a steady rate, `seconds` apart.
+   The 1 Euro filter: steady at rest, little lag in motion. */
 tendril_code tendril_signal_one_euro_step(const tendril_signal_one_euro* filter, tendril_signal_motion_state* state,
     double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_one_euro_filter(const tendril_signal_one_euro* filter, tendril_signal_motion_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error);
+
+/* Maps to another range, scales, clamps, and eases to the result. */
+tendril_code tendril_signal_scale_bias_clamp_step(const tendril_signal_scale_bias_clamp* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_scale_bias_clamp_filter(const tendril_signal_scale_bias_clamp* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* Unreal's FInterpTo: covers speed * seconds of the distance. */
+tendril_code tendril_signal_interp_to_step(const tendril_signal_interp_to* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_interp_to_filter(const tendril_signal_interp_to* filter, tendril_signal_output_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error);
+
+/* The same at any frame rate. */
+tendril_code tendril_signal_interp_to_exact_step(const tendril_signal_interp_to_exact* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_interp_to_exact_filter(const tendril_signal_interp_to_exact* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* The remaining distance halves every halflife. */
+tendril_code tendril_signal_exponential_decay_step(const tendril_signal_exponential_decay* filter,
+    tendril_signal_output_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_exponential_decay_filter(const tendril_signal_exponential_decay* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* Limits the speed. */
+tendril_code tendril_signal_rate_limit_step(const tendril_signal_rate_limit* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_rate_limit_filter(const tendril_signal_rate_limit* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* 0 within the width of 0: hides the play of a joystick. */
+tendril_code tendril_signal_dead_zone_step(const tendril_signal_dead_zone* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_dead_zone_filter(const tendril_signal_dead_zone* filter, tendril_signal_output_state* state,
+    const double* inputs, double* outputs, size_t count, double seconds, tendril_error* error);
+
+/* 0 or 1: a switch that does not flicker. */
+tendril_code tendril_signal_hysteresis_step(const tendril_signal_hysteresis* filter, tendril_signal_output_state* state,
+    double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_hysteresis_filter(const tendril_signal_hysteresis* filter,
+    tendril_signal_output_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* Unity's SmoothDamp. */
+tendril_code tendril_signal_smooth_damp_step(const tendril_signal_smooth_damp* filter,
+    tendril_signal_motion_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_smooth_damp_filter(const tendril_signal_smooth_damp* filter,
+    tendril_signal_motion_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* The spring found in most games; unstable at long frames. */
+tendril_code tendril_signal_spring_semi_implicit_step(const tendril_signal_spring_semi_implicit* filter,
+    tendril_signal_motion_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_spring_semi_implicit_filter(const tendril_signal_spring_semi_implicit* filter,
+    tendril_signal_motion_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* Spreads a jump of the input over time, and passes on all else. */
+tendril_code tendril_signal_inertialize_step(const tendril_signal_inertialize* filter,
+    tendril_signal_inertialize_state* state, double input, double seconds, double* value, tendril_error* error);
+tendril_code tendril_signal_inertialize_filter(const tendril_signal_inertialize* filter,
+    tendril_signal_inertialize_state* state, const double* inputs, double* outputs, size_t count, double seconds,
+    tendril_error* error);
+
+/* A moving average of `window` seconds, 0 to 3600. */
+tendril_code tendril_signal_window_make(double window, tendril_signal_window* out, tendril_error* error);
+tendril_code tendril_signal_window_step(tendril_signal_window window, double input, double seconds, double* value,
+    tendril_error* error);
+tendril_code tendril_signal_window_filter(tendril_signal_window window, const double* inputs, double* outputs,
+    size_t count, double seconds, tendril_error* error);
+
+/* Forgets all samples. */
+tendril_code tendril_signal_window_reset(tendril_signal_window window, tendril_error* error);
 
 #ifdef __cplusplus
 }
