@@ -189,8 +189,10 @@ int CommandPalette::on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& 
 }
 
 bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
-    if (appearing) ImGui::SetWindowFocus();
-    if (appearing || focus_line_) ImGui::SetKeyboardFocusHere();
+    if (appearing || focus_line_) {
+        ImGui::SetWindowFocus();  // a click on a row has moved it to the list
+        ImGui::SetKeyboardFocusHere();
+    }
     struct Context {
         CommandPalette& palette;
         const ShellFrame& frame;

@@ -152,6 +152,7 @@ TEST_F(PaletteTest, AClickOnARowChoosesIt) {
     EXPECT_NE(workspace().settings.theme, theme);
     // A command that needs an argument continues in the line, which keeps the keyboard.
     open().type("simulation's speed");
+    wait(2);
     take(MousePress{MouseButton::Left, true});
     take(MousePress{MouseButton::Left, false});
     EXPECT_TRUE(is_open());

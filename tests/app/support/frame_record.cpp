@@ -120,7 +120,7 @@ namespace {
 void note_item(DrawnItem::Kind kind, const char* label, std::optional<bool> on = {}, const char* shown = "") {
     DrawnItem* const item = active != nullptr ? active->last_item() : nullptr;
     if (item == nullptr) return;
-    if (item->kind != DrawnItem::Kind::Row) item->kind = kind;
+    item->kind = kind;
     item->label = label, item->on = on, item->shown = shown;
 }
 
@@ -146,7 +146,6 @@ void note_item(DrawnItem::Kind kind, const char* label, std::optional<bool> on =
 #define TENDRIL_DRAG_SCALAR "_ZN5ImGui10DragScalarEPKciPvfPKvS4_S1_i"
 #define TENDRIL_INPUT_TEXT "_ZN5ImGui17InputTextWithHintEPKcS1_PcmiPFiP26ImGuiInputTextCallbackDataEPv"
 #define TENDRIL_COMBO "_ZN5ImGui10BeginComboEPKcS1_i"
-#define TENDRIL_OVERLAP "_ZN5ImGui19SetItemAllowOverlapEv"
 
 namespace tendril::test {
 
@@ -217,7 +216,8 @@ bool real_selectable(const char*, bool, ImGuiSelectableFlags,
 bool selectable(const char*, bool, ImGuiSelectableFlags, const ImVec2&) __asm__("__wrap_" TENDRIL_SELECTABLE);
 bool selectable(const char* label, bool chosen, ImGuiSelectableFlags flags, const ImVec2& size) {
     const bool pressed = real_selectable(label, chosen, flags, size);
-    note_item(DrawnItem::Kind::Other, label);
+    const bool holds_others = (flags & ImGuiSelectableFlags_AllowItemOverlap) != 0;
+    note_item(holds_others ? DrawnItem::Kind::Row : DrawnItem::Kind::Other, label);
     return pressed;
 }
 
@@ -260,15 +260,5 @@ bool begin_combo(const char* label, const char* preview, ImGuiComboFlags flags) 
     if (!open) note_item(DrawnItem::Kind::Combo, label, {}, preview);
     return open;
 }
-
-#if IMGUI_VERSION_NUM < 18970  // later versions set a flag when the item is created
-void real_allow_overlap() __asm__("__real_" TENDRIL_OVERLAP);
-void allow_overlap() __asm__("__wrap_" TENDRIL_OVERLAP);
-void allow_overlap() {
-    if (DrawnItem* const item = active != nullptr ? active->last_item() : nullptr)
-        item->kind = DrawnItem::Kind::Row;
-    real_allow_overlap();
-}
-#endif
 
 }  // namespace tendril::test
