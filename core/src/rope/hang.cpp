@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rope/geometry.hpp"
+#include "tendril/elementary.hpp"
 
 namespace tendril::rope::detail {
 namespace {
@@ -61,6 +62,26 @@ std::vector<dvec3> folded(const dvec3& from, const dvec3& to, double length_, st
     return points;
 }
 
+/// Chords of a circle's arc below the line from `from` to `to`. Each bends from the one before by the same
+/// angle.
+std::vector<dvec3> arc(const dvec3& from, const dvec3& across, double chord, std::size_t segments,
+                       const dvec3& down) {
+    const double distance = length(across), count = static_cast<double>(segments);
+    double low = 0.0, high = math::pi / count;  // half that angle
+    for (int i = 0; i < 60; ++i) {
+        const double half = 0.5 * (low + high);
+        (math::sine(count * half) * chord > distance * math::sine(half) ? low : high) = half;
+    }
+    const dvec3 along = (1.0 / distance) * across, below = down - dot(down, along) * along;
+    const dvec3 aside = (1.0 / length(below)) * below;
+    std::vector<dvec3> points{from};
+    for (std::size_t i = 0; i < segments; ++i) {
+        const auto [sine, cosine] = math::sine_cosine((count - 1.0 - 2.0 * static_cast<double>(i)) * low);
+        points.push_back(points.back() + chord * (cosine * along + sine * aside));
+    }
+    return points;
+}
+
 }  // namespace
 
 std::vector<dvec3> hang(const dvec3& from, const dvec3& to, double length_, std::size_t segments,
@@ -90,6 +111,8 @@ std::vector<dvec3> hang(const dvec3& from, const dvec3& to, double length_, std:
         points.push_back(parabola.at(t));
         t = parabola.next(t, chord);
     }
+    // No parabola may end there if a rope is coarse and slack or steep.
+    if (length(points.back() - to) > 1e-6 * chord) points = arc(from, across, chord, segments, down);
     points.back() = to;
     return points;
 }
