@@ -263,8 +263,9 @@ void App::take_shortcut(Emit& emit) {
     const bool taken = workspace_.ui.covered() || ui_.wants_text() || ImGui::IsAnyItemActive() ||
                        ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
     if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
-    // In a field, a menu or a drag Esc only ends that and keeps the selection.
-    if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
+    // In a field, a menu or a drag Esc only ends that, and keeps the selection or the dialog.
+    const bool typing_number = ui_.numbers().id != 0;
+    if (chord.key == Key::Escape && (workspace_.ui.covered() ? typing_number : taken || busy())) return;
     // Ignore numbers typed beside a field, or into one that has vanished.
     if (types_nowhere_ && !chord.ctrl && !chord.alt && in_number(chord.key))
         return workspace_.toast("No field has the keyboard. Click one, or click the view to use shortcuts.");

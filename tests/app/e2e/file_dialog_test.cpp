@@ -34,6 +34,11 @@ TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     EXPECT_TRUE(says(text(), "a.png b.png c.png")) << "more than a row";
     click({700.0f, at("width, pixels").y});
     key("ctrl+a");
+    type("7");
+    key("escape");
+    EXPECT_TRUE(app_.workspace().ui.covered()) << "only the number is given up";
+    click({700.0f, at("width, pixels").y});
+    key("ctrl+a");
     type("300");
     key("enter");
     click({700.0f, at("background").y});
