@@ -245,8 +245,8 @@ TEST_F(RowsUnderMore, TheKindOfAnAttachmentChoosesItsBone) {
     open("humanoid");
     run("view.fold", {{"section", "humanoid: Attachments and wind"}, {"folded", false}});
     EXPECT_TRUE(shows("Hips"));
-    click(at("rope"));
-    click(at("hair"));
+    click(at("tail (rope)"));
+    click(at("ponytail (hair)"));
     EXPECT_TRUE(shows("Head"));
     EXPECT_FALSE(shows("Hips"));
     const std::size_t before = app_.state().at("attachments").size();

@@ -138,7 +138,7 @@ void set_wind(HumanoidPart& part, const Arguments& given) {
 
 void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
     ImGui::PushID(each.name.c_str());
-    const std::string kind = attachment_kinds.title(each.kind);
+    const std::string kind = attachment_kinds.name(each.kind);
     reading(each.name.c_str(), "%son %s",
             (each.name + ' ').starts_with(kind + ' ') ? "" : (kind + ' ').c_str(),
             panel.part.called(*panel.part.skeleton().find(each.node)).c_str());

@@ -21,9 +21,10 @@ namespace tendril::app {
 enum class AttachmentKind : std::uint8_t { Rope, Hair, Cloth };
 inline constexpr EnumNames<AttachmentKind, 3> attachment_kinds{
     "kind of attachment",
-    {{"rope", "rope", "One strand, held where it leaves the body: a tail."},
-     {"hair", "hair", "Many thin strands that keep their direction at the root: a ponytail."},
-     {"cloth", "cloth", "A cloth whose first row is held: on the chest, a cape between both shoulders."}}};
+    {{"rope", "tail (rope)", "One strand, held where it leaves the body: a tail."},
+     {"hair", "ponytail (hair)", "Many thin strands that keep their direction at the root: a ponytail."},
+     {"cloth", "cape (cloth)",
+      "A cloth whose first row is held: on the chest, a cape between both shoulders."}}};
 
 inline constexpr std::size_t max_attachments = 16, max_attached_particles = 4000;
 inline constexpr int max_attached_segments = 200, max_attached_strands = 200;
