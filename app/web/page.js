@@ -17,12 +17,14 @@ const known = new Set();  // entries that this page has read or written
 
 async function takeKeptFiles() {
     const lock = (number) => `tendril ${number}`;
-    navigator.locks?.request(lock(pageNumber), () => new Promise(() => {}));  // until the page ends
+    const hold = (number) => navigator.locks?.request(lock(number), () => new Promise(() => {}));  // until the page ends
+    hold(pageNumber);
     const living = new Set(((await navigator.locks?.query())?.held ?? []).map((each) => each.name));
     FS.mkdirTree(folder);
     for (const key of Object.keys(localStorage).filter((each) => each.startsWith(prefix))) {
         const number = /autosave-(\d+)/.exec(key)?.[1];
         if (number && living.has(lock(number))) continue;
+        if (number) hold(number);  // another tab is not offered it too
         FS.writeFile(`${folder}/${key.slice(prefix.length)}`, localStorage[key]);
         known.add(key);
     }

@@ -112,7 +112,7 @@ std::vector<dvec3> hang(const dvec3& from, const dvec3& to, double length_, std:
         t = parabola.next(t, chord);
     }
     // No parabola may end there if a rope is coarse and slack or steep.
-    if (length(points.back() - to) > 1e-6 * chord) points = arc(from, across, chord, segments, down);
+    if (length(points.back() - to) > 1e-4 * chord) points = arc(from, across, chord, segments, down);
     points.back() = to;
     return points;
 }
