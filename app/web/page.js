@@ -19,7 +19,12 @@ async function takeKeptFiles() {
     const lock = (number) => `tendril ${number}`;
     const hold = (number) => navigator.locks?.request(lock(number), () => new Promise(() => {}));  // until the page ends
     hold(pageNumber);
-    const living = new Set(((await navigator.locks?.query())?.held ?? []).map((each) => each.name));
+    const held = async () => new Set(((await navigator.locks?.query())?.held ?? []).map((each) => each.name));
+    let living = await held();
+    if (living.size > 1) {  // a page that this one replaces lets go a moment later
+        await new Promise((done) => setTimeout(done, 300));
+        living = await held();
+    }
     FS.mkdirTree(folder);
     for (const key of Object.keys(localStorage).filter((each) => each.startsWith(prefix))) {
         const number = /autosave-(\d+)/.exec(key)?.[1];
