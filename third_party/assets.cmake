@@ -1,5 +1,5 @@
-# Embeds the shaders, the fonts and the labs' cards and presets in the program, which then runs from any folder. The
-# assembler's .incbin copies the files unchanged, as fast for a font as for a line of text.
+# Embeds the shaders, the fonts and the labs' cards and presets in the program, which then runs from any folder. embed.cmake
+# writes each as the elements of an array, which every compiler reads.
 find_path(TENDRIL_FONT_FOLDER Roboto-Regular.ttf
     PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/roboto/unhinted
           /usr/share/fonts/truetype/roboto
@@ -13,9 +13,9 @@ file(GLOB asset_shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.vert
 file(GLOB asset_data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/app/labs/*/cards.json ${PROJECT_SOURCE_DIR}/app/labs/*/presets.json)
 set(asset_files ${asset_shaders} ${asset_data} ${TENDRIL_FONT_FOLDER}/Roboto-Regular.ttf ${TENDRIL_FONT_FOLDER}/Roboto-Medium.ttf)
 
-set(asset_blobs "")
+set(asset_arrays "")
 set(asset_table "")
-set(asset_index 0)
+set(asset_bytes "")
 foreach(path IN LISTS asset_files)
     tendril_require_file(${path})
     get_filename_component(name ${path} NAME)
@@ -24,17 +24,16 @@ foreach(path IN LISTS asset_files)
         get_filename_component(folder ${folder} NAME)
         set(name "${folder}/${name}")
     endif()
-    set(symbol "tendril_asset_${asset_index}")
-    math(EXPR asset_index "${asset_index} + 1")
-    string(APPEND asset_blobs "TENDRIL_ASSET(${symbol}, \"${path}\")\n")
-    string(APPEND asset_table "    {\"${name}\", ${symbol}_begin, ${symbol}_end},\n")
+    string(MAKE_C_IDENTIFIER "asset_${name}" symbol)
+    set(bytes ${CMAKE_CURRENT_BINARY_DIR}/assets/${symbol}.inc)
+    add_custom_command(OUTPUT ${bytes} DEPENDS ${path} ${CMAKE_CURRENT_SOURCE_DIR}/embed.cmake
+        COMMAND ${CMAKE_COMMAND} -DFROM=${path} -DTO=${bytes} -P ${CMAKE_CURRENT_SOURCE_DIR}/embed.cmake)
+    list(APPEND asset_bytes ${bytes})
+    string(APPEND asset_arrays "const unsigned char ${symbol}[] = {\n#include \"assets/${symbol}.inc\"\n};\n")
+    string(APPEND asset_table "    {\"${name}\", ${symbol}},\n")
 endforeach()
 configure_file(assets.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp @ONLY)
-# The compiler cannot see through .incbin, so state the object's dependencies.
-set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/assets.cpp PROPERTIES OBJECT_DEPENDS "${asset_files}")
 
-add_library(tendril_assets STATIC ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp)
-# A compiler cache does not track what .incbin reads and would return stale assets.
-set_target_properties(tendril_assets PROPERTIES CXX_COMPILER_LAUNCHER "")
-target_include_directories(tendril_assets PUBLIC ${PROJECT_SOURCE_DIR})
+add_library(tendril_assets STATIC ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp ${asset_bytes})
+target_include_directories(tendril_assets PUBLIC ${PROJECT_SOURCE_DIR} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 target_link_libraries(tendril_assets PRIVATE tendril_warnings)

@@ -37,7 +37,11 @@ else()
     target_link_libraries(tendril_imgui PUBLIC PkgConfig::IMGUI)
 endif()
 
+set(loader "-include;glad/gl.h")
+if(MSVC)
+    set(loader /FIglad/gl.h)
+endif()
 set_source_files_properties(${imgui_backend} PROPERTIES
-    COMPILE_DEFINITIONS "IMGUI_IMPL_OPENGL_LOADER_CUSTOM;$<$<BOOL:${EMSCRIPTEN}>:IMGUI_IMPL_OPENGL_ES3>" COMPILE_OPTIONS "-include;glad/gl.h")
+    COMPILE_DEFINITIONS "IMGUI_IMPL_OPENGL_LOADER_CUSTOM;$<$<BOOL:${EMSCRIPTEN}>:IMGUI_IMPL_OPENGL_ES3>" COMPILE_OPTIONS "${loader}")
 target_compile_options(tendril_imgui PRIVATE -w)
 target_link_libraries(tendril_imgui PRIVATE tendril_glad)

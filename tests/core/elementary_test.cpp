@@ -149,6 +149,17 @@ TEST_F(Elementary, ArccosinesStayInTheirRange) {
     EXPECT_EQ(math::arccosine(-1.5), math::pi);
 }
 
+TEST_F(Elementary, ARotationTurnsAboutItsAxis) {
+    for (int i = 0; i < test::rounds(cases) / 10; ++i) {
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(around(1.0), around(1.0), around(1.0) + 3.0));
+        const double radians = around(10.0);
+        const glm::dquat wanted = glm::angleAxis(radians, axis), got = math::rotation_about(axis, radians),
+                         single = math::rotation_about(glm::vec3(axis), static_cast<float>(radians));
+        EXPECT_LT(glm::length(got - wanted), 1e-15) << radians;
+        EXPECT_LT(glm::length(single - wanted), 1e-6) << radians;
+    }
+}
+
 TEST_F(Elementary, DecayIsWithinOneUnitInTheLastPlace) {
     double worst = 0.0;
     for (int i = 0; i < test::rounds(cases); ++i)

@@ -1,6 +1,7 @@
 // Elementary functions in plain arithmetic. The standard library's differ between systems, and sometimes
 // between processors; these give the same bits everywhere, so a target or an angle that a game computes with
-// them replays exactly. Errors are below 1 unit in the last place, for huge and subnormal arguments too.
+// them replays exactly. Errors are below 1 unit in the last place, for huge and subnormal arguments too, but
+// for the arccosine.
 #pragma once
 
 #include "tendril/quat.hpp"
@@ -33,7 +34,7 @@ SineCosine sine_cosine_of_turns(double turns) noexcept;
 /// The angle of the point (x, y) from the x axis, radians, -pi to pi; 0 for the origin. -0 counts as 0.
 double arctangent(double y, double x) noexcept;
 float arctangent(float y, float x) noexcept;
-/// Radians, 0 to pi. A cosine beyond -1 to 1 counts as the nearer of them.
+/// Radians, 0 to pi, to 5e-16. A cosine beyond -1 to 1 counts as the nearer of them.
 double arccosine(double cosine) noexcept;
 
 /// Rotation about a unit axis, radians.

@@ -1,6 +1,11 @@
 #include "math/fork_join.hpp"
 
-#include <sched.h>
+#if defined(__x86_64__) || defined(__i386__) || defined(_M_X64)
+#include <emmintrin.h>
+#define TENDRIL_HAS_PAUSE
+#endif
+
+#include <thread>
 
 namespace tendril::detail {
 namespace {
@@ -13,10 +18,10 @@ constexpr std::uint64_t part_mask = first_part - 1;
 
 void pause(std::uint32_t polls) noexcept {
     constexpr std::uint32_t max_spins = 2000;
-    if (polls > max_spins) sched_yield();
-#if defined(__x86_64__) || defined(__i386__)
+    if (polls > max_spins) std::this_thread::yield();
+#ifdef TENDRIL_HAS_PAUSE
     else
-        __builtin_ia32_pause();
+        _mm_pause();
 #endif
 }
 

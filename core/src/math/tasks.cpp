@@ -1,10 +1,19 @@
 #include "math/tasks.hpp"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
+
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+
+#include <process.h>
+#else
+#include <pthread.h>
+#endif
 
 namespace tendril::detail {
 namespace {
@@ -21,20 +30,45 @@ struct Shared {
     }
 };
 
+// The system's own threads: std::thread throws if it cannot start one, and this library is compiled without
+// exceptions.
+#ifdef _WIN32
+using Thread = HANDLE;
+
+unsigned __stdcall work(void* shared) noexcept {
+    static_cast<Shared*>(shared)->work();
+    return 0;
+}
+bool start(Thread& thread, Shared& shared) noexcept {
+    thread = reinterpret_cast<HANDLE>(_beginthreadex(nullptr, 0, work, &shared, 0, nullptr));
+    return thread != nullptr;
+}
+void join(Thread thread) noexcept {
+    WaitForSingleObject(thread, INFINITE);
+    CloseHandle(thread);
+}
+#else
+using Thread = pthread_t;
+
 void* work(void* shared) noexcept {
     static_cast<Shared*>(shared)->work();
     return nullptr;
 }
+bool start(Thread& thread, Shared& shared) noexcept {
+    return pthread_create(&thread, nullptr, work, &shared) == 0;
+}
+void join(Thread thread) noexcept {
+    pthread_join(thread, nullptr);
+}
+#endif
 
-/// Uses POSIX threads: std::thread throws if it cannot start a thread, and this library is compiled without
-/// exceptions.
 void run_on_threads(Shared& shared, std::uint32_t threads) noexcept {
-    std::array<pthread_t, max_threads> started;
+    std::array<Thread, max_threads> started;
     std::size_t count = 0;
     const std::size_t wanted = std::min({threads, shared.count, max_threads}) - 1;
-    while (count < wanted && pthread_create(&started[count], nullptr, work, &shared) == 0) ++count;
+    while (count < wanted && start(started[count], shared)) ++count;
     shared.work();
-    for (std::size_t i = 0; i < count; ++i) pthread_join(started[i], nullptr);
+    for (std::size_t i = 0; i < count; ++i) join(started[i]);
 }
 
 }  // namespace
