@@ -2,7 +2,8 @@
 //
 // An isolated chain first moves by its previous tension, applied implicitly; then one or two passes correct
 // its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is solved again from
-// that result, with tension along the links' new directions: that converges, and costs energy.
+// that result: twice as before, then with tension along the links' new directions, which converges and costs
+// energy.
 //
 // A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
 // that is a grid is one system with its contacts (cloth_solver.hpp), and so are bodies that ties join
@@ -36,7 +37,7 @@ constexpr double accepted_error = 1e-4;         ///< a chain with more is solved
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
 constexpr double fallback_error = 0.02;         ///< above it a chain's body is relaxed
 constexpr double accepted_gain = 1e-3;          ///< a result that gains more energy is rejected
-constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
+constexpr int max_restarts = 8, mean_restarts = 2, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
 /// Rounds in which contacts are projected, and their accepted error, relative to the thickness.
@@ -45,10 +46,10 @@ constexpr double projection_tolerance = 1e-3;
 /// A chain that shares particles may have impossible lengths, as when straight between two pins. Its system
 /// is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
-/// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
-/// particles within a second, and costs a pendulum with a period of one second a few percent of its energy in
-/// a minute.
-constexpr double min_backward = 0.01;
+/// The part of tension that acts along the new direction rather than the mean, for each second of a substep,
+/// and its maximum. It damps the jitter of single particles within a second; in longer substeps more of it
+/// would stop a swing.
+constexpr double backward_rate = 2.4, max_backward = 0.01;
 
 }  // namespace
 
@@ -57,6 +58,10 @@ struct Substep::Batch {
     std::uint32_t chain = 0, count = 1;
     bool single = false;
 };
+
+double Substep::backward() const {
+    return std::min(max_backward, backward_rate * h_);
+}
 
 /// Solves chains that share nothing. A chain that touches something is solved with its contacts, any other as
 /// if in the air; if it then ends inside a collider, or fails, it is solved again with contacts.
@@ -329,7 +334,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         // errors: there the new direction alone works best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
         const bool contact = has_fallback_contact(body);
-        job.backward[lane] = first.isolated && !contact ? min_backward : 1.0;
+        job.backward[lane] = first.isolated && !contact ? backward() : 1.0;
         const int max_passes = !first.isolated ? 1 : contact ? 4 : 2;
         job.passes[lane] = std::min(max_passes, state_.settings.iterations);
     }
@@ -349,37 +354,41 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     return worst;
 }
 
+/// Whether an isolated chain's lengths are within `tolerance`; `bounded`: and it gained no energy.
+bool Substep::accepts(std::uint32_t chain, double tolerance, bool bounded) {
+    if (!(scratch_.chain_error[chain] <= tolerance)) return false;
+    if (!bounded) return true;
+    const std::array<Member, 1> alone{Member{.chain = chain}};
+    const Ledger ledger = ledger_of(alone);
+    if (ledger.gains_over(1e-4)) return false;
+    // Nothing else moves the chain in this substep, so this ledger balances it.
+    const bool untouched = scratch_.body_near[plan_.chains[chain].body] == Scratch::Nearest::None;
+    if (untouched && island_.isolated && island_.contacts == 0 && !is_free(alone))
+        local_.members[chain - island_.chains.first].slowdown = limit_gain(ledger);
+    return true;
+}
+
 void Substep::solve_again(std::uint32_t chain) {
-    const double tolerance =
-        has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
     const Plan::Chain& it = plan_.chains[chain];
-    if (scratch_.chain_error[chain] <= tolerance) {
-        const std::array<Member, 1> alone{Member{.chain = chain}};
-        const Ledger ledger = ledger_of(alone);
-        if (!ledger.gains_over(1e-4)) {
-            // Nothing else moves the chain in this substep, so this ledger balances it.
-            const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
-            if (untouched && island_.isolated && island_.contacts == 0 && !is_free(alone))
-                local_.members[chain - island_.chains.first].slowdown = limit_gain(ledger);
-            return;
-        }
-    }
+    const double tolerance = has_fallback_contact(it.body) ? 10.0 * accepted_error : accepted_error;
+    if (accepts(chain, tolerance, true)) return;
     Block block{local_.block.data() + local_.block_offset, it.links, 1};
     const int restarts = std::min(max_restarts, state_.settings.iterations);
-    for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {
-        scratch_.multiplier[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
-    }
     for (int i = 0; i < restarts; ++i) {
+        const bool mean = i < mean_restarts;
+        if (i == 0 || i == mean_restarts)
+            for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k)
+                scratch_.multiplier[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
         SolveJob job;
         gather(block, {chain, 1, true});
         job.implicit = true;
-        job.backward[0] = 1.0;
+        job.backward[0] = mean ? backward() : 1.0;
         job.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
         job.tolerance = length_tolerance;
         scratch_.unit.single(block, job);
         scratch_.chain_error[chain] = job.worst[0];
         scatter(block, 0, chain);
-        if (job.worst[0] <= tolerance) break;
+        if (accepts(chain, tolerance, mean)) break;
     }
 }
 

@@ -96,7 +96,9 @@ class Substep : IslandStep {
     int direct_tied();
     double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
+    bool accepts(std::uint32_t chain, double tolerance, bool bounded);
     void solve_again(std::uint32_t chain);
+    double backward() const;
     void relax_failed_bodies();
     void shorten_steps();
     void shorten_step(std::uint32_t chain);
