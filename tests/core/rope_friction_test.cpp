@@ -47,7 +47,7 @@ TEST(RopeFriction, SlidesBeyondTheTangent) {
 
 /// A stiff stick on two bars, where links touch between their ends and slide over them.
 TEST(RopeFriction, AStickOnTwoBarsObeysCoulomb) {
-    for (const int segments : {2, 4, 16})
+    for (const int segments : {1, 2, 4, 16})
         for (const float friction : {0.1f, 0.3f, 0.8f})
             for (const double beyond : {-0.02, 0.1}) {
                 const double angle = std::atan(static_cast<double>(friction)) + beyond;

@@ -94,7 +94,7 @@ bool ChainNewton::find(std::uint32_t number) {
             if (moving.far_from(from + 0.5 * along, far)) continue;
             if (!link_before) {
                 contact_of(k);
-                s_.link_contacts.push_back({k, static_cast<std::uint32_t>(s_.link_colliders.size()), 0, ~0u});
+                s_.link_contacts.push_back({k, static_cast<std::uint32_t>(s_.link_colliders.size())});
             }
             ++s_.link_contacts.back().count;
             s_.link_colliders.push_back(each.collider);
@@ -187,7 +187,9 @@ bool ChainNewton::update_contacts() {
         if (sums && !s_.progress.moved) continue;  // no drag yet
         for (ContactScratch::Contact& contact : s_.contacts) changed |= apply_friction(contact, sums);
         for (ContactScratch::LinkContact& contact : s_.link_contacts)
-            changed |= apply_link_friction(contact, sums);
+            for (std::size_t i = 0; i < contact.touches.size(); ++i)
+                changed |=
+                    apply_link_friction(contact.bond, contact.touches[i], effects_of(contact)[i], sums);
     }
     return changed;
 }
@@ -330,102 +332,126 @@ bool ChainNewton::holds_end(const ContactScratch::LinkContact& contact, std::uin
     });
 }
 
+/// Chooses the deepest touches of a link, each with another collider, and apart from each other. Touches that
+/// rest stay.
 bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
+    using Touch = ContactScratch::LinkContact::Touch;
     const detail::ChainBond& bond = s_.bonds[contact.bond];
-    detail::BondContact& effect = s_.bond_effects[static_cast<std::size_t>(bond.contact)];
     const dvec3 a = s_.nodes[contact.bond].x, b = s_.nodes[contact.bond + 1].x;
-    const bool was = effect.active;
-    if (was) {
-        effect.gap = dot(effect.normal, a + effect.at * (b - a) - contact.point);
-        if (effect.gap < -thickness(contact.collider)) return true;  // it has passed through
-        if (rests() && !(s_.progress.may_release && effect.multiplier < 0.0)) {
-            return effect.gap <
-                   (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance);
-        }
+    const bool moved = s_.progress.moved, may_release = s_.progress.may_release;
+    const double tolerance = may_release ? penetration_tolerance : late_penetration_tolerance;
+    const std::span<detail::BondContact> effects = effects_of(contact);
+    bool stay = rests(), changed = false;
+    std::size_t held = 0;
+    for (; held < effects.size() && effects[held].active; ++held) {
+        detail::BondContact& effect = effects[held];
+        effect.gap = dot(effect.normal, a + effect.at * (b - a) - contact.touches[held].point);
+        if (effect.gap < -thickness(contact.touches[held].collider)) return true;  // it has passed through
+        stay &= !may_release || effect.multiplier >= 0.0;
+        changed |= effect.gap < -tolerance;
     }
-    const bool keeps = !s_.progress.moved || (was && (!s_.progress.may_release || effect.multiplier >= 0.0));
-    double deepest = keeps ? touch_distance : -allowed_depth;
-    std::uint32_t touched = ~0u;
-    effect.active = false;
+    stay &= held > 0;
+    if (stay && held == effects.size()) return changed;
+    const auto earlier = contact.touches;
+    std::array<detail::BondContact, detail::ChainBond::max_contacts> before;
+    std::ranges::copy(effects, before.begin());
+    std::array<double, detail::ChainBond::max_contacts> depths;
+    depths.fill(-unmeasured);  // nothing takes the place of those that stay
+    const std::size_t kept = stay ? held : 0;
+    std::size_t count = kept;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
-        const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        const bool moved = s_.progress.moved;
-        const double reach = radius_ + touch_distance;
+        const std::uint32_t number = s_.link_colliders[c];
+        std::size_t was = 0;
+        while (was < held && earlier[was].collider != number) ++was;
+        if (was < kept) continue;
+        const bool keeps = !moved || (was < held && (!may_release || before[was].multiplier >= 0.0));
+        const Scratch::Moving& moving = collider(number);
         const Scratch::Moving::Segment now{a, b},
             start = start_of(contact.bond, moving),
             free{scratch_.base[particle(contact.bond)], scratch_.base[particle(contact.bond + 1)]};
         std::optional<Scratch::Moving::At> at =
             moving.first_touch(start, moved ? now : free, radius_, local_.done.work);
         const bool swept = at.has_value();
-        if (!swept) at = moving.nearest(moved ? now : start, reach, local_.done.work);
-        if (!at || holds_end(contact, s_.link_colliders[c], at->along)) continue;
+        if (!swept) at = moving.nearest(moved ? now : start, radius_ + touch_distance, local_.done.work);
+        if (!at || holds_end(contact, number, at->along)) continue;
         const dvec3 normal = at->surface.normal;
         const double distance = at->surface.distance - radius_;
         const dvec3 point = at->point - distance * normal;
         const double gap = dot(normal, a + at->along * (b - a) - point);
-        double depth = gap;
-        if (!moved) depth = swept ? -1.0 : std::min(gap, distance);
-        if (depth >= deepest) continue;
-        deepest = depth;
-        touched = s_.link_colliders[c];
+        const double depth = moved ? gap : swept ? -1.0 : std::min(gap, distance);
+        if (depth >= (keeps ? touch_distance : -allowed_depth)) continue;
+        // Takes the place of a shallower one beside it, or of the shallowest.
+        std::size_t to = kept;
+        while (to < count && std::abs(effects[to].at - at->along) * bond.rest > radius_) ++to;
+        if (to == count && count == effects.size())
+            to = kept + static_cast<std::size_t>(std::max_element(depths.begin() + kept, depths.end()) -
+                                                 (depths.begin() + kept));
+        else if (to == count)
+            depths[count++] = unmeasured;
+        if (depths[to] <= depth) continue;
+        depths[to] = depth;
+        detail::BondContact& effect = effects[to] = {};
         effect.active = true;
         effect.normal = normal;
         effect.at = at->along;
         effect.gap = gap;
-        contact.point = point;
+        contact.touches[to] = {number, point};
+        if (was < held) {
+            effect.multiplier = before[was].multiplier;
+            contact.touches[to].drag = earlier[was].drag;
+        } else if (!moved) {  // a rough estimate of the force that it has to bear
+            const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
+            effect.multiplier = std::max(0.0, -dot(force, normal));
+        }
     }
-    if (!effect.active) {
-        effect.multiplier = 0.0;
-    } else if (touched != contact.collider) {
-        // A rough estimate of the force that it has to bear.
-        const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
-        effect.multiplier = s_.progress.moved ? 0.0 : std::max(0.0, -dot(force, effect.normal));
+    for (std::size_t i = count; i < effects.size(); ++i) effects[i] = {}, contact.touches[i] = {};
+    changed = may_release && count != held;
+    for (std::size_t i = 0; i < count; ++i) {
+        changed |= effects[i].gap < -tolerance;
+        changed |=
+            may_release && std::ranges::none_of(std::span(earlier).first(held), [&](const Touch& touch) {
+                return touch.collider == contact.touches[i].collider;
+            });
     }
-    const bool changed =
-        (s_.progress.may_release && (effect.active != was || touched != contact.collider)) ||
-        (effect.active &&
-         effect.gap < (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance));
-    contact.collider = touched;
     return changed;
 }
 
 /// Friction of a link: its ends share the drag.
-bool ChainNewton::apply_link_friction(ContactScratch::LinkContact& contact, bool sums) {
-    const detail::BondContact& effect =
-        s_.bond_effects[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
+bool ChainNewton::apply_link_friction(std::uint32_t bond, ContactScratch::LinkContact::Touch& touch,
+                                      const detail::BondContact& effect, bool sums) {
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
     const bool holds =
-        effect.active && effect.gap >= -thickness(contact.collider);  // it has not passed through
+        effect.active && effect.gap >= -thickness(touch.collider);  // it has not passed through
     const double normal = holds ? std::max(0.0, effect.multiplier) : 0.0;
     if (friction == 0.0 || normal == 0.0) {
-        contact.drag = 0.0;
+        touch.drag = 0.0;
         return false;
     }
-    const detail::ChainNode &a = s_.nodes[contact.bond], &b = s_.nodes[contact.bond + 1];
+    const detail::ChainNode &a = s_.nodes[bond], &b = s_.nodes[bond + 1];
     const auto slip_of = [&](std::uint32_t node) {
         const dvec3 start = state_.position[particle(node)];
-        const dvec3 by = collider(contact.collider).move_at(s_.nodes[node].x);
+        const dvec3 by = collider(touch.collider).move_at(s_.nodes[node].x);
         return tangential(s_.nodes[node].x - start - by, effect.normal);
     };
-    const dvec3 slip_a = slip_of(contact.bond), slip_b = slip_of(contact.bond + 1);
+    const dvec3 slip_a = slip_of(bond), slip_b = slip_of(bond + 1);
     const double t = effect.at;
     const dvec3 slip = (1.0 - t) * slip_a + t * slip_b;
     double slip_distance = detail::length(slip);
     if (!s_.progress.moved) {  // as for a particle
-        const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
-                             t * state_.displacement[particle(contact.bond + 1)];
-        const dvec3 by = collider(contact.collider).move_at((1.0 - t) * a.x + t * b.x);
+        const dvec3 before =
+            (1.0 - t) * state_.displacement[particle(bond)] + t * state_.displacement[particle(bond + 1)];
+        const dvec3 by = collider(touch.collider).move_at((1.0 - t) * a.x + t * b.x);
         const double to_a = a.pinned ? 0.0 : (1.0 - t) / a.mass, to_b = b.pinned ? 0.0 : t / b.mass;
         const dvec3 free = slip + tangential(to_a * a.force + to_b * b.force, effect.normal);
         const double braked = friction * normal * ((1.0 - t) * to_a + t * to_b);
         slip_distance =
             std::max(detail::length(tangential(before - by, effect.normal)), detail::length(free) - braked);
     }
-    const bool changed = set_drag(contact.drag, friction * normal, slip_distance, sums);
+    const bool changed = set_drag(touch.drag, friction * normal, slip_distance, sums);
     if (sums) return false;
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& its_slip) {
         detail::NodeContact& end = s_.node_effects[static_cast<std::size_t>(node.contact)];
-        const double drag = part * contact.drag;
+        const double drag = part * touch.drag;
         end.drag += drag;  // with other contacts' shares
         if (end.drag > 0.0) end.slip += (drag / end.drag) * (its_slip - end.slip);
     };

@@ -67,13 +67,13 @@ void ChainNewton::begin() {
         contact.drag = 0.0;
         for (std::uint32_t p = 0; p < contact.count; ++p) begin_plane(contact, s_.planes[contact.first + p]);
     }
-    s_.bond_effects.assign(s_.link_contacts.size(), {});
-    s_.saved_contacts.assign(s_.link_contacts.size(), 0.0);
-    for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
-        s_.bonds[s_.link_contacts[c].bond].contact = static_cast<std::int32_t>(c);
-        s_.link_contacts[c].collider = ~0u;
-        s_.link_contacts[c].drag = 0.0;
+    s_.bond_effects.clear();
+    for (ContactScratch::LinkContact& contact : s_.link_contacts) {
+        s_.bonds[contact.bond].contact = static_cast<std::int32_t>(s_.bond_effects.size());
+        s_.bond_effects.resize(s_.bond_effects.size() + detail::ChainBond::max_contacts);
+        contact.touches = {};
     }
+    s_.saved_contacts.assign(s_.bond_effects.size(), 0.0);
     s_.pushes.clear();
     begin_bends();
     s_.progress = {.mass = mass};

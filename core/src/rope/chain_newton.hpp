@@ -62,8 +62,13 @@ class ChainNewton {
     bool set_drag(double& drag, double limit, double slip, bool sums);
     bool apply_friction(ContactScratch::Contact& contact, bool sums);
     bool holds_end(const ContactScratch::LinkContact& contact, std::uint32_t collider, double at) const;
+    std::span<detail::BondContact> effects_of(const ContactScratch::LinkContact& contact) const {
+        const auto first = static_cast<std::size_t>(s_.bonds[contact.bond].contact);
+        return std::span(s_.bond_effects).subspan(first, contact.touches.size());
+    }
     bool update_link(ContactScratch::LinkContact& contact);
-    bool apply_link_friction(ContactScratch::LinkContact& contact, bool sums);
+    bool apply_link_friction(std::uint32_t bond, ContactScratch::LinkContact::Touch& touch,
+                             const detail::BondContact& effect, bool sums);
     void push_colliders() const;
     void push_planes(const ContactScratch::Contact& contact, const detail::NodeContact& effect,
                      double per_substep) const;

@@ -84,9 +84,9 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     const double s = bond.stiffness;
     const dvec3 moved = node.mobility * along;
     const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_ratio;
-    bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
-    bond.row = along - s * moved;
-    bond.right = bond.error / bond.stiffness_ratio - dot(along, node.offset);
+    bond.row.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
+    bond.row.next = along - s * moved;
+    bond.row.right = bond.error / bond.stiffness_ratio - dot(along, node.offset);
     Sweep next;
     const double square = -s * s;
     const Symmetric3& m = node.mobility;
@@ -103,8 +103,8 @@ Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double 
     Sweep next = eliminate(node, bond, along, weights);
     const dvec3 moved = node.mobility * along;
     const Matrix3& to = bend.across;
-    bond.row = along + to.transposed_by(moved);
-    bend.row = to_second * moved;
+    bond.row.next = along + to.transposed_by(moved);
+    bond.row.second = to_second * moved;
     const Matrix3 by = product(node.mobility, to);
     next.matrix = beyond.matrix;
     const auto column = [](const Matrix3& a, int i) { return dvec3(a.m[i], a.m[3 + i], a.m[6 + i]); };
@@ -122,57 +122,50 @@ Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double 
     return next;
 }
 
-/// Adds the bond's multiplier, the only unknown between the two nodes.
-inline void couple(const ChainBond& bond, Sweep& next) noexcept {
-    next.matrix.add(bond.inverse, bond.row, bond.row);
-    next.right -= (bond.right * bond.inverse) * bond.row;
+/// Eliminates a multiplier.
+template <bool bent>
+void couple(const MultiplierRow& row, Sweep& next, Beyond& beyond) noexcept {
+    next.matrix.add(row.inverse, row.next, row.next);
+    next.right -= (row.right * row.inverse) * row.next;
+    if constexpr (bent) {
+        beyond.matrix.add(row.inverse, row.second, row.second);
+        beyond.across.add(row.inverse, row.next, row.second);
+        beyond.right -= (row.right * row.inverse) * row.second;
+    }
 }
 
-inline void couple(const ChainBond& bond, const ChainBend& bend, Sweep& next, Beyond& beyond) noexcept {
-    couple(bond, next);
-    beyond.matrix.add(bond.inverse, bend.row, bend.row);
-    beyond.across.add(bond.inverse, bond.row, bend.row);
-    beyond.right -= (bond.right * bond.inverse) * bend.row;
+/// Subtracts a part of the row of a multiplier that is already eliminated.
+void subtract(double part, const MultiplierRow& by, MultiplierRow& row) noexcept {
+    row.next -= part * by.next;
+    row.second -= part * by.second;
+    row.right -= part * by.right;
 }
 
-/// Adds the contact's multiplier too; `here` and `there` are its shares on the node and on the next.
-void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights, BondContact& contact,
-            double here, double there, Sweep& next, ChainBend* bend, double to_second,
-            Beyond& beyond) noexcept {
-    const dvec3 push = here * contact.normal, moved = node.mobility * push;
-    if (bend == nullptr) {
-        contact.row = there * contact.normal + bond.stiffness * moved;
-    } else {
-        contact.row = there * contact.normal - bend->across.transposed_by(moved);
-        bend->contact_row = -to_second * moved;
+/// Makes the row of a contact of the link behind `node`, which is `there` of the link away from it.
+/// `across`: the matrix to the next node; null: only the link's stiffness leads there.
+void add_contact(const ChainNode& node, const ChainBond& bond, const dvec3& along, double weights,
+                 double there, const Matrix3* across, double to_second, const BondContact* last,
+                 BondContact& contact) noexcept {
+    contact.push = (there - 1.0) * contact.normal;
+    const dvec3 moved = node.mobility * contact.push;
+    MultiplierRow& row = contact.row;
+    row.next =
+        there * contact.normal + (across == nullptr ? -bond.stiffness * moved : across->transposed_by(moved));
+    row.second = to_second * moved;
+    row.right = contact.gap - dot(contact.push, node.offset);
+    const double own = dot(contact.push, moved) + contact_compliance * weights;
+    const double shared = dot(along, moved);
+    double pivot = own - bond.row.inverse * shared * shared;
+    contact.of_bond = bond.row.inverse * shared;
+    subtract(contact.of_bond, bond.row, row);
+    contact.of_last = 0.0;
+    if (last != nullptr) {
+        const double both = dot(last->push, moved) - last->of_bond * shared;
+        contact.of_last = last->row.inverse * both;
+        pivot -= contact.of_last * both;
+        subtract(contact.of_last, last->row, row);
     }
-    contact.right = contact.gap + dot(push, node.offset);
-    contact.coupled = -dot(along, moved);
-    const double own = dot(push, moved) + contact_compliance * weights;
-    const double pivot = bond.inverse > 0.0 ? 1.0 / bond.inverse : 0.0;
-    const double determinant = pivot * own - contact.coupled * contact.coupled;
-    if (!(determinant > 1e-14 * pivot * own)) {
-        contact.inverse = 0.0;
-        bend == nullptr ? couple(bond, next) : couple(bond, *bend, next, beyond);
-        return;
-    }
-    contact.inverse = 1.0 / determinant;
-    const double a = own * contact.inverse, b = -contact.coupled * contact.inverse,
-                 c = pivot * contact.inverse;
-    const dvec3 first = a * bond.row + b * contact.row, second = b * bond.row + c * contact.row;
-    next.matrix.add(1.0, first, bond.row);
-    next.matrix.add(1.0, second, contact.row);
-    next.right -= bond.right * first + contact.right * second;
-    if (bend != nullptr) {
-        const dvec3 one = a * bend->row + b * bend->contact_row, two = b * bend->row + c * bend->contact_row;
-        beyond.matrix.add(1.0, one, bend->row);
-        beyond.matrix.add(1.0, two, bend->contact_row);
-        beyond.across.add(1.0, bond.row, one);
-        beyond.across.add(1.0, contact.row, two);
-        beyond.right -= bond.right * one + contact.right * two;
-    }
-    // Stores the inverse of the 2 x 2 matrix.
-    bond.inverse = a, contact.coupled = b, contact.inverse = c;
+    row.inverse = pivot > 1e-14 * own ? 1.0 / pivot : 0.0;
 }
 
 }  // namespace
@@ -198,10 +191,9 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
                 pull = bond.multiplier *
                        (tension_ahead * bond.along + (1.0 - tension_ahead) * bends[k].direction);
-            if (bond.contact >= 0) {
-                const BondContact& contact = bond_contacts[static_cast<std::size_t>(bond.contact)];
+            for (const BondContact& contact : contacts_of(bond)) {
                 pull += (contact.multiplier * (1.0 - contact.at)) * contact.normal;
-                push_next = contact.multiplier * contact.normal;
+                push_next += contact.multiplier * contact.normal;
             }
         }
         node.force = node.mass * (node.base - node.x) + pull - pull_before;
@@ -262,15 +254,15 @@ void ChainSystem::solve() noexcept {
             after = eliminate(node, bond, *bend, to_second, along, weights, beyond);
         else
             after = eliminate(node, bond, along, weights);
-        BondContact* const contact =
-            bond.contact < 0 ? nullptr : &bond_contacts[static_cast<std::size_t>(bond.contact)];
-        if (contact != nullptr && contact->active) {
-            const double t = forward ? contact->at : 1.0 - contact->at;
-            couple(node, bond, along, weights, *contact, 1.0 - t, t, after, bend, to_second, beyond);
-        } else if constexpr (bent) {
-            couple(bond, *bend, after, beyond);
-        } else {
-            couple(bond, after);
+        couple<bent>(bond.row, after, beyond);
+        const BondContact* last_contact = nullptr;
+        for (BondContact& contact : contacts_of(bond)) {
+            if (!contact.active) continue;
+            const double there = forward ? contact.at : 1.0 - contact.at;
+            add_contact(node, bond, along, weights, there, bent ? &bend->across : nullptr, to_second,
+                        last_contact, contact);
+            couple<bent>(contact.row, after, beyond);
+            last_contact = &contact;
         }
         return after;
     };
@@ -300,25 +292,28 @@ void ChainSystem::solve() noexcept {
         ChainNode& here = nodes[k];
         ChainBond& bond = bonds[forward ? k : next];
         const dvec3 along = forward ? bond.along : -bond.along;
-        double right_here = dot(bond.row, next_by) + bond.right;
         dvec3 push;
         if constexpr (bent) {
-            right_here += dot(bends[k].row, second_by);
             const double to_second = forward ? bends[k].to_second : bends[k - 2].to_second;
             push = -(bends[k].across * next_by) - to_second * second_by;
         } else {
             push = bond.stiffness * next_by;
         }
-        double change = right_here * bond.inverse;
-        BondContact* const contact =
-            bond.contact < 0 ? nullptr : &bond_contacts[static_cast<std::size_t>(bond.contact)];
-        if (contact != nullptr && contact->active && contact->inverse > 0.0) {
-            double other = dot(contact->row, next_by) + contact->right;
-            if constexpr (bent) other += dot(bends[k].contact_row, second_by);
-            change += other * contact->coupled;
-            const double contact_change = right_here * contact->coupled + other * contact->inverse;
-            contact->multiplier -= contact_change;
-            push -= (contact_change * (forward ? 1.0 - contact->at : contact->at)) * contact->normal;
+        const auto value = [&](const MultiplierRow& row) {
+            double sum = dot(row.next, next_by) + row.right;
+            if constexpr (bent) sum += dot(row.second, second_by);
+            return sum * row.inverse;
+        };
+        double change = value(bond.row), of_last = 0.0;
+        const std::span<BondContact> touching = contacts_of(bond);
+        for (std::size_t c = touching.size(); c-- > 0;) {
+            BondContact& contact = touching[c];
+            if (!contact.active) continue;
+            const double part = value(contact.row) - of_last;
+            of_last = contact.of_last * part;
+            change -= contact.of_bond * part;
+            contact.multiplier -= part;
+            push += part * contact.push;
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
         // The stiffness acted along the link too; that part is tension.

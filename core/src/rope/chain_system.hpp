@@ -10,7 +10,7 @@
 // Where nodes resist bending, forces also lead to the next node but one, and the blocks are pentadiagonal.
 //
 // A node in contact moves by a given distance along the normal, and against friction tangentially; a link in
-// contact does so at the point that touches. Nodes are eliminated from both ends towards the middle, each
+// contact does so at the points that touch. Nodes are eliminated from both ends towards the middle, each
 // with the link behind it: 3 x 3 blocks, O(n). The matrix is symmetric and quasi-definite, so this is stable
 // without pivoting (R. Vanderbei, "Symmetric quasidefinite matrices", 1995).
 #pragma once
@@ -98,19 +98,25 @@ struct NodePush {
     Symmetric3 stiffness;  ///< decrease of the force per move of the node, times h^2
 };
 
+/// Within a step: expresses a multiplier between two nodes by the displacement of the second in elimination
+/// order and, if the chain bends, of the one after.
+struct MultiplierRow {
+    dvec3 next{0.0}, second{0.0};
+    double right = 0.0, inverse = 0.0;
+};
+
 /// A link, from its node to the next.
 struct ChainBond {
-    double rest = 0.0;             ///< metres
-    double compliance = 0.0;       ///< m/N, over h^2
-    double multiplier = 0.0;       ///< tension times h^2
-    std::int32_t contact = -1;     ///< index of its BondContact; negative: none
-    dvec3 along{0.0};              ///< unit
-    double error = 0.0;            ///< metres too long
-    double stiffness = 0.0;        ///< sideways, times h^2
-    double stiffness_ratio = 1.0;  ///< part of the stiffness along it left by compliance
-    // Within a step: expresses the multiplier by the displacement of the next node in elimination order.
-    dvec3 row{0.0};
-    double right = 0.0, inverse = 0.0;
+    static constexpr int max_contacts = 2;  ///< what keeps a stick from turning about one of them
+    double rest = 0.0;                      ///< metres
+    double compliance = 0.0;                ///< m/N, over h^2
+    double multiplier = 0.0;                ///< tension times h^2
+    std::int32_t contact = -1;              ///< index of its first BondContact; negative: none
+    dvec3 along{0.0};                       ///< unit
+    double error = 0.0;                     ///< metres too long
+    double stiffness = 0.0;                 ///< sideways, times h^2
+    double stiffness_ratio = 1.0;           ///< part of the stiffness along it left by compliance
+    MultiplierRow row;
 };
 
 /// The effect of contacts on a node.
@@ -130,9 +136,10 @@ struct BondContact {
     double at = 0.5;          ///< where on the link, from 0 at its node to 1 at the next
     double gap = 0.0;         ///< metres
     double multiplier = 0.0;  ///< force times h^2
-    // Within a step, as in ChainBond.
-    dvec3 row{0.0};
-    double right = 0.0, inverse = 0.0, coupled = 0.0;
+    // Within a step:
+    MultiplierRow row;
+    dvec3 push{0.0};                      ///< displacement of its node for its multiplier, without mobility
+    double of_bond = 0.0, of_last = 0.0;  ///< parts of its row in the link's and in the contact's before it
 };
 
 /// Bending at a node: a moment of stiffness times the curvature before (x_{j-1} - x_j) + after (x_{j+1} -
@@ -144,10 +151,7 @@ struct ChainBend {
     dvec3 direction{0.0};              ///< link direction one substep before the last, unit; 0: unknown
     double own = 0.0;                  ///< added to the matrix of its node,
     double to_next = 0.0, to_second = 0.0;  ///< and to the matrices to the next node and next but one
-    // Within a step: the matrix that leads to the next node in elimination order; the rows of multipliers for
-    // the next but one.
-    Matrix3 across;
-    dvec3 row{0.0}, contact_row{0.0};
+    Matrix3 across;  ///< within a step: the matrix that leads to the next node in elimination order
 
     dvec3 curvature(const dvec3& previous, const dvec3& x, const dvec3& next) const noexcept {
         return before * (previous - x) + after * (next - x);
@@ -161,7 +165,7 @@ struct ChainSystem {
     std::span<ChainNode> nodes;
     std::span<ChainBond> bonds;  ///< one fewer than nodes
     std::span<const NodeContact> contacts;
-    std::span<BondContact> bond_contacts;
+    std::span<BondContact> bond_contacts;  ///< ChainBond::max_contacts for each link that has any
     std::span<const NodePush> pushes;
     std::span<ChainBend> bends;  ///< by node; empty: nothing resists bending
 
@@ -173,6 +177,10 @@ struct ChainSystem {
     double max_error() const noexcept;  ///< length error of a link, relative to its rest length
 
   private:
+    std::span<BondContact> contacts_of(const ChainBond& bond) const noexcept {
+        if (bond.contact < 0) return {};
+        return bond_contacts.subspan(static_cast<std::size_t>(bond.contact), ChainBond::max_contacts);
+    }
     template <bool bent>
     void solve() noexcept;
 };

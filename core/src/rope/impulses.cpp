@@ -27,15 +27,19 @@ void ChainNewton::push_colliders() const {
     const auto push = [&](std::uint32_t number, const dvec3& force, const dvec3& at) {
         local_.push(number, per_substep * force, at);
     };
-    for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
-        const ContactScratch::LinkContact& link = s_.link_contacts[c];
+    constexpr std::size_t touches = detail::ChainBond::max_contacts;
+    const auto touch = [&](std::size_t effect) -> const ContactScratch::LinkContact::Touch& {
+        return s_.link_contacts[effect / touches].touches[effect % touches];
+    };
+    for (std::size_t c = 0; c < s_.bond_effects.size(); ++c) {
         const detail::BondContact& effect = s_.bond_effects[c];
-        if (effect.active) push(link.collider, -effect.multiplier * effect.normal, link.point);
+        if (effect.active) push(touch(c).collider, -effect.multiplier * effect.normal, touch(c).point);
     }
-    const auto link_at = [&](std::uint32_t bond) -> const ContactScratch::LinkContact* {
+    const auto link_at = [&](std::uint32_t bond) -> const ContactScratch::LinkContact::Touch* {
         if (bond >= s_.bonds.size() || s_.bonds[bond].contact < 0) return nullptr;
-        const auto c = static_cast<std::size_t>(s_.bonds[bond].contact);
-        return s_.bond_effects[c].active ? &s_.link_contacts[c] : nullptr;
+        const auto c =
+            static_cast<std::size_t>(s_.bonds[bond].contact);  // touches fill their places in order
+        return s_.bond_effects[c].active ? &touch(c) : nullptr;
     };
     for (std::size_t c = 0; c < s_.contacts.size(); ++c) {
         const ContactScratch::Contact& contact = s_.contacts[c];
@@ -45,8 +49,8 @@ void ChainNewton::push_colliders() const {
             push_planes(contact, s_.node_effects[c], per_substep);
             continue;
         }
-        const ContactScratch::LinkContact *const next = link_at(contact.node), *const last =
-                                                                                   link_at(contact.node - 1);
+        const auto* const next = link_at(contact.node);
+        const auto* const last = link_at(contact.node - 1);
         if (next != nullptr || last != nullptr)  // friction
             push((next != nullptr ? next : last)->collider, node.force, node.x);
     }

@@ -76,11 +76,14 @@ struct ContactScratch {
     };
     /// A contact with colliders so small that a link can touch them between its ends.
     struct LinkContact {
+        struct Touch {
+            std::uint32_t collider = 0xffffffffu;
+            glm::dvec3 point{0.0};  ///< on its plane
+            double drag = 0.0;      ///< friction, as in NodeContact
+        };
         std::uint32_t bond = 0;
-        std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
-        std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
-        glm::dvec3 point{0.0};                 ///< on its plane
-        double drag = 0.0;                     ///< friction, as in NodeContact
+        std::uint32_t first = 0, count = 0;                            ///< in `link_colliders`
+        std::array<Touch, detail::ChainBond::max_contacts> touches{};  ///< parallel to its effects
     };
     struct Saved {
         glm::dvec3 x{0.0};
@@ -88,14 +91,14 @@ struct ContactScratch {
     };
     std::vector<Contact> contacts;  ///< parallel to `node_effects`, by node
     std::vector<Plane> planes;
-    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_effects`, by bond
+    std::vector<LinkContact> link_contacts;  ///< by bond
     std::vector<std::uint32_t> link_colliders;
     std::vector<detail::ChainNode> nodes;
     std::vector<detail::ChainBond> bonds;
     std::vector<detail::NodeContact> node_effects;
-    std::vector<detail::BondContact> bond_effects;
-    std::vector<detail::ChainBend> bends;  ///< by node; empty if the body does not resist bending
-    std::vector<Saved> saved;              ///< nodes and bonds before a step
+    std::vector<detail::BondContact> bond_effects;  ///< max_contacts for each of `link_contacts`
+    std::vector<detail::ChainBend> bends;           ///< by node; empty if the body does not resist bending
+    std::vector<Saved> saved;                       ///< nodes and bonds before a step
     std::vector<double> saved_contacts;
     std::vector<detail::NodePush> pushes;  ///< by contacts with other segments
     /// Progress of the solve.

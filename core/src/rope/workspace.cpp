@@ -57,8 +57,9 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
     ContactScratch& contact = scratch.contact;
     contact.nodes.reserve(nodes), contact.bonds.reserve(nodes), contact.saved.reserve(nodes);
     contact.contacts.reserve(nodes), contact.node_effects.reserve(nodes), contact.planes.reserve(4 * nodes);
-    contact.link_contacts.reserve(nodes), contact.bond_effects.reserve(nodes);
-    contact.saved_contacts.reserve(nodes), contact.link_colliders.reserve(4 * nodes);
+    const std::size_t touches = nodes * detail::ChainBond::max_contacts;
+    contact.link_contacts.reserve(nodes), contact.bond_effects.reserve(touches);
+    contact.saved_contacts.reserve(touches), contact.link_colliders.reserve(4 * nodes);
     constexpr std::size_t alignment = 8;  // doubles: 64 bytes
     scratch.block.assign(detail::Block::doubles(plan.longest, lanes) + alignment, 0.0);
     const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
