@@ -16,7 +16,7 @@ int main(int count, char** arguments) {
                                 {"solves", solve_hash(), 0x3e2a0f3abfa96d25u},
                                 {"curves", curve_hash(), 0xc984494022b79a60u},
                                 {"linkages", linkage_hash(), 0x6c5a5599856d4789u},
-                                {"ropes", rope_hash(), 0xb2b3770e4b41aa13u},
+                                {"ropes", rope_hash(), 0xed9df244451ffe5fu},
                                 {"rigs", rig_hash(), 0xa096d19a1c0f4457u},
                                 {"rig solves", rig_solve_hash(), 0xc444cb318688c5e9u},
                                 {"signals", signal_hash(), 0x013ce1f6e58deff3u},

@@ -29,6 +29,7 @@ struct ClothArrays {
     std::array<float*, fine_steps> rest{}, stiffness{};  ///< per link, by the cell it begins in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length
     GridVector position{};                               ///< relative to any particle of the cloth, metres
+    GridVector rounding{};                               ///< what `position` lacks to double precision
     GridVector lag{};                                    ///< x0 - x
     float* mass = nullptr;
 };

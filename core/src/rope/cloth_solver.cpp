@@ -33,12 +33,12 @@ constexpr std::size_t links_per_sum = 4096;  ///< summed by one thread at a time
 }  // namespace
 
 void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
-    std::array<float*, 3 * fine_steps + 7> all{};
+    std::array<float*, 3 * fine_steps + 10> all{};
     system.resize(columns, rows, all);
     auto next = all.begin();
     for (auto* links : {&arrays.rest, &arrays.stiffness, &arrays.pull})
         for (float*& each : *links) each = *next++;
-    for (GridVector* vector : {&arrays.position, &arrays.lag})
+    for (GridVector* vector : {&arrays.position, &arrays.rounding, &arrays.lag})
         for (float*& each : *vector) each = *next++;
     arrays.mass = *next;
     parts.resize((system.finest().cells() + dot_cells - 1) / dot_cells);
@@ -139,9 +139,12 @@ void ClothSolver::evaluate() {
     const dvec3 origin = scratch_.x[first_];
     each_cell([&](std::size_t i, std::size_t cell) {
         const dvec3 position = scratch_.x[i] - origin, lag = scratch_.base[i] - scratch_.x[i];
-        to.position[0][cell] = static_cast<float>(position.x), to.lag[0][cell] = static_cast<float>(lag.x);
-        to.position[1][cell] = static_cast<float>(position.y), to.lag[1][cell] = static_cast<float>(lag.y);
-        to.position[2][cell] = static_cast<float>(position.z), to.lag[2][cell] = static_cast<float>(lag.z);
+        for (int c = 0; c < 3; ++c) {
+            const auto k = static_cast<std::size_t>(c);
+            const float rounded = to.position[k][cell] = static_cast<float>(position[c]);
+            to.rounding[k][cell] = static_cast<float>(position[c] - static_cast<double>(rounded));
+            to.lag[k][cell] = static_cast<float>(lag[c]);
+        }
     });
     in_cells([&](detail::GridRange cells) {
         scratch_.cloth_unit.links(level_, to, static_cast<float>(stiffness_), cloth_.parts.data(), cells);

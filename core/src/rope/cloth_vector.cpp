@@ -14,6 +14,31 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
 
+using Double = hn::CappedTag<double, grid_lanes>;
+using Narrow = hn::Rebind<float, Double>;
+
+inline hn::Vec<Double> load_double(const float* from) {
+    return hn::PromoteTo(Double(), hn::LoadU(Narrow(), from));
+}
+
+/// By how much the links of a register exceed their rest length. In single precision the rounding of
+/// positions would push a stiff link by more than gravity does in a substep of 1/1000 s.
+inline V excess(const ClothArrays& cloth, const float* rest, std::ptrdiff_t from, std::ptrdiff_t to) {
+    alignas(64) float lanes[grid_lanes];
+    for (std::size_t k = 0; k < hn::Lanes(Tag()); k += hn::Lanes(Double())) {
+        hn::Vec<Double> square = hn::Zero(Double());
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float *high = cloth.position[c] + k, *low = cloth.rounding[c] + k;
+            const auto by = hn::Add(hn::Sub(load_double(high + to), load_double(high + from)),
+                                    hn::Sub(load_double(low + to), load_double(low + from)));
+            square = hn::Add(square, hn::Mul(by, by));
+        }
+        const auto longer = hn::Sub(hn::Sqrt(square), load_double(rest + from + k));
+        hn::StoreU(hn::DemoteTo(Narrow(), longer), Narrow(), lanes + k);
+    }
+    return load(lanes);
+}
+
 /// The links of one step.
 template <std::size_t s>
 void links_of(const GridLevel& level, const ClothArrays& cloth, float counted_stiffness, ClothPart& part,
@@ -32,7 +57,7 @@ void links_of(const GridLevel& level, const ClothArrays& cloth, float counted_st
         const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
         const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
                       hn::Mul(by.z, inverse)};
-        const V longer = hn::Sub(length, rest), force = hn::Mul(stiffness, longer);
+        const V longer = excess(cloth, cloth.rest[s], i, i + step), force = hn::Mul(stiffness, longer);
         if (s < stretch_steps) {
             const V by_rest = hn::Div(hn::Abs(longer), hn::Max(rest, shortest));
             const auto counts = hn::Eq(stiffness, hn::Set(Tag(), counted_stiffness));
