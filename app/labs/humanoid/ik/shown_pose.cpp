@@ -371,12 +371,6 @@ Release release_between(const std::vector<rig::Transform>& before, const std::ve
     return release;
 }
 
-void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held) {
-    part.ik_state.release = {};
-    const ShownPose there = settled_pose(part, solvers, part.ik_state);
-    part.ik_state.release = release_between(held, there.before_springs, part.node_of(humanoid::Bone::Hips));
-}
-
 double fading(const Release& release) {
     const double part = std::clamp(1.0 + (release.left - release_seconds) / fade_seconds, 0.0, 1.0);
     return part * part * (3.0 - 2.0 * part);

@@ -102,8 +102,6 @@ inline constexpr double settle_speed = 1.2;
 /// The fading difference: rotations and hips translation from `now` to `before`.
 Release release_between(const std::vector<rig::Transform>& before, const std::vector<rig::Transform>& now,
                         std::optional<std::size_t> hips);
-/// The same for targets that were set at once: solves, then fades out the difference from the pose `held`.
-void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held);
 /// 1 right after the release, 0 once it has faded out.
 double fading(const Release& release);
 void apply(const Release& release, std::vector<rig::Transform>& pose, std::optional<std::size_t> hips);
