@@ -20,6 +20,9 @@ constexpr double landing = 0.15;
 constexpr double diagonal = 1.25;
 /// A foot shifted away from an edge stands once at most this much of the shift remains, metres.
 constexpr double shift_tolerance = 0.001;
+/// A leg in the air straightens in a step by at most this part of what is left: the bend of a nearly straight
+/// knee changes fast.
+constexpr double straighten_part = 0.6;
 
 /// Knees bend forwards.
 Pole pole_of(const glm::dvec3& forward) noexcept {
@@ -40,9 +43,11 @@ double max_part(const Allowed& allowed) noexcept {
 
 /// Distance by which the hips must be lowered for the leg to reach; negative if the leg has length to spare.
 double FeetStep::shortfall(std::size_t i, double lift) const noexcept {
+    return shortfall(i, lift, reach_of(legs_[i], options_.straightest).longest);
+}
+double FeetStep::shortfall(std::size_t i, double lift, double longest) const noexcept {
     const LimbPlacement& leg = legs_[i];
     const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
-    const double longest = reach_of(leg, options_.straightest).longest;
     const double level = way.x * way.x + way.z * way.z;
     return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
 }
@@ -139,11 +144,16 @@ void FeetStep::limit_standing_knees() noexcept {
     state_.drop = drop;
 }
 
-/// A foot whose leg cannot reach down stays above its place instead of moving beside it.
+/// A foot whose leg cannot reach down, or not yet, stays above its place instead of moving beside it.
 void FeetStep::stay_above(std::size_t i) noexcept {
     FootState& foot = state_.feet[i];
-    const double short_by = shortfall(i, foot.lift) - state_.drop;
-    if (first_step_ || is_standing(i) || !(dt_ > 0.0) || !(short_by > 0.0)) return;
+    if (first_step_ || is_standing(i) || !(dt_ > 0.0)) return;
+    const double raise = state_.base - state_.drop,
+                 longest = reach_of(legs_[i], options_.straightest).longest,
+                 before = length(minus(target(i, lifts_[i] - raise), legs_[i].upper.position));
+    const double short_by =
+        shortfall(i, foot.lift, before + straighten_part * std::max(0.0, longest - before)) - state_.drop;
+    if (!(short_by > 0.0)) return;
     foot.lift = move_toward(lifts_[i], foot.lift + short_by, lift_limit(i));
     foot.ease.value = foot.lift - foot.goal;
 }

@@ -54,6 +54,7 @@ class FeetStep {
     double first_base() const noexcept;
     double ground_around() const noexcept;
     double shortfall(std::size_t leg, double lift) const noexcept;
+    double shortfall(std::size_t leg, double lift, double longest) const noexcept;
     double lift_limit(std::size_t leg) const noexcept;
     void ease_lift(std::size_t leg, double goal, double rise) const noexcept;
     glm::dvec3 target(std::size_t leg, double lift) const noexcept;

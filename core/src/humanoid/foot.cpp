@@ -21,9 +21,13 @@ constexpr double turn_speed = 3.0;
 constexpr double fastest = 1e3;
 /// Minimum speed of a foot on the way to its foothold, m/s, and maximum, as a fraction of max_speed.
 constexpr double min_shift_speed = 0.4, max_shift_part = 0.6;
+/// A foot in the air that still has to rise by more than this returns to the clip no faster either, metres.
+constexpr double late_rise = 0.15;
 /// A foot is about to land if it is this close to the floor and the clip brakes it so hard that it stops
 /// within this time; metres, seconds.
-constexpr double landing_time = 0.15, landing_height = 0.15;
+constexpr double landing_time = 0.2, landing_height = 0.15;
+/// A heel this high over the toe is about to follow it off the ground, metres.
+constexpr double rolled_off = 0.05;
 
 constexpr double hold_speed_part = 0.75, max_hold_part = 0.65, min_clearance = 0.02;
 
@@ -103,9 +107,11 @@ glm::dvec3 ease_shift(FootState& foot, const FootContext& context) noexcept {
         return rest;
     }
     double by = way * (1.0 - context.decay);
+    const double most = max_shift_part * context.options.max_speed * context.dt;
     if (foot.shift_x != -foot.offset_x || foot.shift_z != -foot.offset_z)
-        by = std::min(std::max(by, min_shift_speed * context.dt),
-                      max_shift_part * context.options.max_speed * context.dt);
+        by = std::min(std::max(by, min_shift_speed * context.dt), most);
+    else if (!foot.locked && foot.goal - foot.lift > late_rise)
+        by = std::min(by, most);
     const double part = std::min(1.0, by / way);
     const glm::dvec3 moved{foot.shift_x * part, 0.0, foot.shift_z * part};
     foot.shift_x -= moved.x, foot.shift_z -= moved.z;
@@ -126,18 +132,26 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
+/// Where and when the clip stops a foot, if it goes on to brake it as in this step.
+struct Stop {
+    glm::dvec3 way{0.0};
+    double seconds = 1e9;
+
+    Stop(const glm::dvec3& velocity, const glm::dvec3& before, double dt) noexcept {
+        const double speed = length(velocity), braking = (dot(before, velocity) / speed - speed) / dt;
+        if (speed > 1e-9 && braking > 0.0)
+            way = times(velocity, 0.5 * speed / braking), seconds = speed / braking;
+    }
+};
+
 /// Remaining movement in the clip of a foot that is about to land or has landed; nullopt for any other.
-std::optional<glm::dvec3> landing_in(const FootState& foot, const FootClip& clip, const glm::dvec3& before,
+std::optional<glm::dvec3> landing_in(const FootState& foot, const FootClip& clip, const Stop& stop,
                                      const FootContext& context) noexcept {
     if (foot.locked) return glm::dvec3(0.0);
     if (context.first_step || !(context.dt > 0.0) || height_over_floor(clip, context) > landing_height)
         return std::nullopt;
-    const glm::dvec3& velocity = foot.velocity;
-    const double speed = length(velocity);
-    if (speed < context.options.enter_speed) return glm::dvec3(0.0);
-    const double braking = (dot(before, velocity) / speed - speed) / context.dt;
-    if (!(speed < landing_time * braking)) return std::nullopt;
-    return times(velocity, 0.5 * speed / braking);
+    if (length(foot.velocity) < context.options.enter_speed) return glm::dvec3(0.0);
+    return stop.seconds < landing_time ? std::optional(stop.way) : std::nullopt;
 }
 
 glm::dvec3 shift_of(const FootState& foot) noexcept {
@@ -224,7 +238,11 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
             const glm::dvec3 by = ease_shift(foot, context);
             foot.lock_x += by.x - options.root_velocity.x * context.dt;
             foot.lock_z += by.z - options.root_velocity.z * context.dt;
-            const bool fast = speed > (foot.speed_known ? options.leave_speed : options.enter_speed);
+            // A foot that rolls off below the root has a step to climb, and no time to lose.
+            const bool below = context.base - foot.lift > step_over_plane;
+            const bool leaves = below && clip.heel.y - clip.toe.y > rolled_off;
+            const bool fast =
+                speed > (foot.speed_known && !leaves ? options.leave_speed : options.enter_speed);
             const double x = foot.lock_x - clip.toe.x, z = foot.lock_z - clip.toe.z;
             const bool far = x * x + z * z > options.break_distance * options.break_distance;
             // A released foot follows the clip again, at the offset it had before.
@@ -269,7 +287,8 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
             context.first_step ? goal : eased_turn(foot.turn, goal, context.decay, turn_speed * context.dt);
     };
     turn_by(footing_of(Turned(foot, clip)));
-    const auto landing = landing_in(foot, clip, before, context);
+    const Stop stop(foot.velocity, before, context.dt);
+    const auto landing = landing_in(foot, clip, stop, context);
     choose_foothold(foot, clip, landing, from, context);
     Turned turned(foot, clip);
     FootGoal goal;
@@ -284,6 +303,11 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
             .velocity = foot.velocity,
             .before = before};
         if (landing) sole.remaining = length(plus(*landing, shift_of(foot)));
+        // By the time at which the clip stops, the foot has made its shift too.
+        if (stop.seconds < 1.0) {
+            const double part = length(plus(stop.way, shift_of(foot))) / length(stop.way);
+            sole.velocity = times(sole.velocity, part), sole.before = times(before, part);
+        }
         way = find_clearance(sole, from, context);
         if (!foot.locked && way.part < 1.0) {
             held = hold_back(foot, times(sole.moved, 1.0 - way.part), eased, context);

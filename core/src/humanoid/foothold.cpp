@@ -16,6 +16,8 @@ constexpr std::array<double, 4> sample_positions{0.0, 0.4, 0.75, 1.0};
 constexpr double max_foothold_part = 0.75;
 /// Weight of the distance from the previous foothold, relative to the distance from the clip's.
 constexpr double previous_weight = 0.5;
+/// Steps are found to within this distance, metres.
+constexpr double step_resolution = 0.002;
 /// Shifts to the side to try, metres, for a sole that lies along an edge.
 constexpr double side_shifts[]{0.02, -0.02, 0.05, -0.05};
 
@@ -62,7 +64,7 @@ class SoleProbe {
             const auto hit = below(times(along_, here));
             if (before && is_step(*before, last, hit, here)) {
                 double low = last, high = here;
-                while (high - low > 0.002) {
+                while (high - low > step_resolution) {
                     const double middle = 0.5 * (low + high);
                     (is_step(*before, last, below(times(along_, middle)), middle) ? high : low) = middle;
                 }
@@ -133,7 +135,7 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
     try_shift(glm::dvec3(0.0));
     if (best_rank == best_stand) return best;
     sole.for_steps([&](double at) {
-        for (const double clear : {margin, 0.25 * margin}) {
+        for (const double clear : {margin + 0.5 * step_resolution, 0.25 * margin}) {
             try_shift(times(sole.along(), at + clear));
             try_shift(times(sole.along(), at - clear - sole.size()));
         }

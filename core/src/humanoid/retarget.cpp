@@ -247,8 +247,7 @@ class Retargeter {
         const lint_detail::FeetMotion motion =
             lint_detail::feet_motion({skeleton_, was_.body.map, clip_, settings, 0.0, report});
         if (!legs_[0] || !legs_[1] || motion.feet.size() != 2) return;
-        const auto source_floor = lint_detail::floor_of(motion, report.rate);
-        if (source_floor || motion.has_soles) learn_level_feet(motion);
+        if (motion.floor || motion.has_soles) learn_level_feet(motion);
         const std::array<detail::SoleTriple, 2> soles{was_.sole(true, motion.feet[0].points[0].above),
                                                       was_.sole(false, motion.feet[1].points[0].above)};
         std::vector<detail::PointedFrame> frames;
@@ -264,7 +263,7 @@ class Retargeter {
              .leg = now_.leg,
              .floor = now_.ground,
              .shift = now_.ground - now_.soles->floor - scale_ * (was_.ground - was_.soles->floor),
-             .source_floor = source_floor,
+             .source_floor = motion.floor,
              .ground = was_.ground,
              .turn = turn_});
     }

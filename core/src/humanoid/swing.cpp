@@ -33,8 +33,9 @@ class SwingMotion {
         if (!(way > 0.0)) return 0.0;
         if (!(speed_ > 1e-9)) return 1e9;
         const double square = speed_ * speed_ + 2.0 * acceleration_ * way;
-        if (acceleration_ < 0.0 && square <= 0.0) return 1e9;
-        const double time = 2.0 * way / (speed_ + std::sqrt(square));
+        // The place where it stops is within reach, whatever the rounding.
+        if (square < -1e-3 * speed_ * speed_) return 1e9;
+        const double time = 2.0 * way / (speed_ + std::sqrt(std::max(0.0, square)));
         if (acceleration_ <= 0.0 || time <= speedup_time) return time;
         const double distance = (speed_ + 0.5 * acceleration_ * speedup_time) * speedup_time;
         return speedup_time + (way - distance) / (speed_ + acceleration_ * speedup_time);

@@ -196,34 +196,24 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     const Clip& place = part.loaded->clips()[part.loaded->clip_called(cure.clip)];
     Clip clip = place;
     const std::optional<BodyLimits> limits = limits_for(part);
-    const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
-    // Each cure leaves fewer findings, so this ends. Findings that could not be cured are tried once more
-    // after all others: each try costs several lints of the whole clip.
+    humanoid::LintSettings settings{.rate = humanoid::frame_rate(clip),
+                                    .limits = limits ? &*limits : nullptr};
+    // A cure may end other findings, or make one curable that was refused: until a round leaves as many as
+    // the one before.
     std::vector<Finding> left;
-    std::vector<std::string> refused;
     std::size_t before = 0;
-    for (bool goes_on = true, any = false; goes_on;) {
-        goes_on = false;
-        left = lint(part.skeleton(), *part.map, clip, settings).findings;
+    for (std::size_t last = SIZE_MAX; true; last = left.size()) {
+        const LintReport judged = lint(part.skeleton(), *part.map, clip, settings);
+        left = judged.findings;
         before = std::max(before, left.size());
+        if (left.size() >= last) break;
+        std::size_t tried = before - left.size();
         for (const Finding& each : left) {
+            report(progress, static_cast<double>(tried++) / static_cast<double>(before + 1));
             if (!each.has_cure || !is_meant(each, cure, part.skeleton())) continue;
-            if (std::ranges::find(refused, each.text) != refused.end()) continue;
-            report(progress, static_cast<double>(before - left.size() + refused.size()) /
-                                 static_cast<double>(before + 1));
-            Expected<Clip> mended = humanoid::cure(part.skeleton(), *part.map, clip, each, settings);
-            if (!mended) {
-                refused.push_back(each.text);
-                continue;
-            }
-            clip = std::move(mended).value();
-            goes_on = any = true;
-            break;
+            Expected<Clip> mended = humanoid::cure(part.skeleton(), *part.map, clip, each, settings, &judged);
+            if (mended) clip = std::move(mended).value();
         }
-        if (goes_on || !any || refused.empty()) continue;
-        refused.clear();
-        any = false;
-        goes_on = true;
     }
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });

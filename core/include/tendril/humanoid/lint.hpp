@@ -37,6 +37,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -86,6 +87,10 @@ struct LintSettings {
     const Ground* ground = nullptr;
 };
 
+namespace lint_detail {
+struct FeetMotion;
+}
+
 /// Frames beyond this are not judged.
 inline constexpr std::size_t max_lint_frames = 500'000;
 
@@ -99,6 +104,8 @@ struct LintReport {
     glm::dvec3 treadmill{0.0};
     double skating = 0.0;             ///< maximum slide of a standing foot, metres, even if tolerated
     std::vector<Finding> findings{};  ///< by frame
+    /// How the clip's feet stand, for cure().
+    std::shared_ptr<const lint_detail::FeetMotion> feet{};
 };
 
 /// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within
@@ -125,9 +132,10 @@ std::vector<Finding> new_findings(const LintReport& before, const LintReport& af
 ///   scaled to the skeleton's size. Axis of a clip: its roots are turned upright.
 /// The result has fewer findings than the clip, and no new ones: faults that the cure itself causes are cured
 /// with it. Refuses a finding without such a cure, or one of another clip. Cost: two to twenty calls of
-/// lint().
+/// lint(). With a `report` of the clip at the same rate, or of the clip before other cures, only the seconds
+/// around the finding are judged, and the cost does not depend on the clip's length.
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
-                    const LintSettings& settings = {});
+                    const LintSettings& settings = {}, const LintReport* report = nullptr);
 
 }  // namespace tendril::humanoid
 

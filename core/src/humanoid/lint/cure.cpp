@@ -198,23 +198,38 @@ Clip repaired(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, co
     return cured;
 }
 
-Expected<Clip> cured_once(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
-                          const Finding& finding, const LintSettings& settings,
-                          const lint_detail::FootCure& options) {
-    LintReport report = lint_detail::blank_report(clip, settings);
-    if (!is_of_foot(finding)) return repaired(skeleton, map, clip, finding, report.rate);
-    return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding, options);
-}
+/// The frames of a clip in which findings are judged and cured.
+struct Window {
+    const Skeleton& skeleton;
+    const BoneMap& map;
+    const LintSettings& settings;
+    LintReport blank;  ///< of these frames
+    std::size_t begin = 0;
+
+    LintReport judged(const Clip& clip) const {
+        LintReport report = blank;
+        lint_detail::Check check{skeleton, map, clip, settings, 0.0, report, begin};
+        judge(check);
+        return report;
+    }
+    Expected<Clip> cured(const Clip& clip, const Finding& finding,
+                         const lint_detail::FootCure& options) const {
+        LintReport report = blank;
+        if (!is_of_foot(finding)) return repaired(skeleton, map, clip, finding, report.rate);
+        return cure_foot({skeleton, map, clip, settings, 0.0, report, begin}, finding, options);
+    }
+};
 
 /// The maximum turn of a node from one frame to the next, degrees.
-double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& report) {
+double fastest_turn(const Clip& clip, std::int32_t node, const Window& window) {
     const auto channel = std::ranges::find_if(
         clip.channels, [&](const Channel& each) { return static_cast<std::int32_t>(each.node) == node; });
     if (channel == clip.channels.end()) return 0.0;
     double worst = 0.0;
     rig::Transform last, next;
-    for (std::size_t i = 0; i < report.frames; ++i) {
-        sample(*channel, std::min(static_cast<double>(i) / report.rate, clip.duration), next);
+    for (std::size_t i = 0; i < window.blank.frames; ++i) {
+        const double time = static_cast<double>(window.begin + i) / window.blank.rate;
+        sample(*channel, std::min(time, clip.duration), next);
         if (i > 0) worst = std::max(worst, length(lint_detail::step_between(last.rotation, next.rotation)));
         last = next;
     }
@@ -222,14 +237,15 @@ double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& repor
 }
 
 /// True if a leg joint turns faster than before, and faster than the lint tolerates.
-bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, const LintSettings& settings,
-                  const LintReport& report) {
+bool turns_faster(const Window& window, const Clip& before, const Clip& after) {
+    const LintSettings& settings = window.settings;
     for (const Bone bone : {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::RightUpperLeg,
                             Bone::RightLowerLeg, Bone::RightFoot}) {
         const bool is_knee = bone == Bone::LeftLowerLeg || bone == Bone::RightLowerLeg;
-        const double now = fastest_turn(after, map[bone].node, report);
-        if (now > (is_knee ? settings.knee : settings.turn) * lint_detail::fps_scale(report.rate) &&
-            now > fastest_turn(before, map[bone].node, report))
+        const std::int32_t node = window.map[bone].node;
+        const double now = fastest_turn(after, node, window);
+        if (now > (is_knee ? settings.knee : settings.turn) * lint_detail::fps_scale(window.blank.rate) &&
+            now > fastest_turn(before, node, window))
             return true;
     }
     return false;
@@ -241,6 +257,8 @@ constexpr lint_detail::FootCure foot_cures[]{{.ease = 0.15, .nearer = 0.005},
                                              {.ease = 0.15, .nearer = 0.0025},
                                              {.ease = 0.3, .nearer = 0.0025},
                                              {.ease = 0.6, .nearer = 0.0025}};
+/// Seconds before and after a finding that are judged with it, if the clip's report is known.
+constexpr double seconds_around = 1.5;
 /// Maximum number of further faults cured with the first: a foot brought down to the floor may slide there.
 constexpr std::size_t max_follow_ups = 4;
 
@@ -248,6 +266,36 @@ bool is_same(const Finding& a, const Finding& b, double rate) {
     constexpr double moved = 0.05;  // seconds by which a finding may move
     const auto near = static_cast<std::size_t>(std::ceil(moved * rate));
     return a.fault == b.fault && a.node == b.node && a.first <= b.last + near && b.first <= a.last + near;
+}
+
+/// Judges no frame outside the window.
+Expected<Clip> cured_in(const Window& window, const Clip& clip, const Finding& finding) {
+    const LintReport before = window.judged(clip);
+    std::optional<Clip> fallback;  // a cure that turns a joint faster
+    for (const lint_detail::FootCure& options : foot_cures) {
+        Expected<Clip> cured = window.cured(clip, finding, options);
+        if (!cured) return cured;
+        for (std::size_t more = 0; more < max_follow_ups; ++more) {
+            const LintReport after = window.judged(*cured);
+            const auto is_left = [&](const Finding& each) {
+                return each.has_cure && is_same(each, finding, after.rate);
+            };
+            std::vector<Finding> wrong = new_findings(before, after);
+            if (wrong.empty() && after.findings.size() < before.findings.size()) {
+                if (!turns_faster(window, clip, *cured)) return cured;
+                if (!fallback) fallback = std::move(*cured);
+                break;
+            }
+            if (wrong.empty()) std::ranges::copy_if(after.findings, std::back_inserter(wrong), is_left);
+            if (wrong.empty() || !wrong.front().has_cure) break;
+            cured = window.cured(*cured, wrong.front(), options);
+            if (!cured) break;
+        }
+        if (!is_of_foot(finding)) break;
+    }
+    if (fallback) return std::move(*fallback);
+    return tendril::detail::refused("cure", "finding", "one whose cure makes no new fault",
+                                    std::string_view(finding.text));
 }
 
 }  // namespace
@@ -263,42 +311,29 @@ std::vector<Finding> new_findings(const LintReport& before, const LintReport& af
 }
 
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
-                    const LintSettings& settings) {
+                    const LintSettings& settings, const LintReport* report) {
     if (!finding.has_cure)
         return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
     if (const Result bad = detail::check_map("cure", map, skeleton); !bad) return bad;
     if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
         return tendril::detail::refused("cure", "finding.node", "the index of a node", finding.node);
-    const LintReport report = lint_detail::blank_report(clip, settings);
-    if (finding.first > finding.last || finding.last >= report.frames)
+    Window window{skeleton, map, settings, lint_detail::blank_report(clip, settings)};
+    const std::size_t frames = window.blank.frames;
+    if (finding.first > finding.last || finding.last >= frames)
         return tendril::detail::refused("cure", "finding", "one of this clip",
                                         std::string_view(finding.text));
-    const LintReport before = lint(skeleton, map, clip, settings);
-    std::optional<Clip> fallback;  // a cure that turns a joint faster
-    for (const lint_detail::FootCure& options : foot_cures) {
-        Expected<Clip> cured = cured_once(skeleton, map, clip, finding, settings, options);
-        if (!cured) return cured;
-        for (std::size_t more = 0; more < max_follow_ups; ++more) {
-            const LintReport after = lint(skeleton, map, *cured, settings);
-            const auto is_left = [&](const Finding& each) {
-                return each.has_cure && is_same(each, finding, after.rate);
-            };
-            std::vector<Finding> wrong = new_findings(before, after);
-            if (wrong.empty() && after.findings.size() < before.findings.size()) {
-                if (!turns_faster(map, clip, *cured, settings, after)) return cured;
-                if (!fallback) fallback = std::move(*cured);
-                break;
-            }
-            if (wrong.empty()) std::ranges::copy_if(after.findings, std::back_inserter(wrong), is_left);
-            if (wrong.empty() || !wrong.front().has_cure) break;
-            cured = cured_once(skeleton, map, *cured, wrong.front(), settings, options);
-            if (!cured) break;
-        }
-        if (!is_of_foot(finding)) break;
+    const bool is_local =
+        is_of_foot(finding) || finding.fault == Fault::Jump || finding.fault == Fault::KneePop;
+    if (report && report->rate == window.blank.rate && is_local) {
+        const auto around = static_cast<std::size_t>(std::ceil(seconds_around * report->rate));
+        Window near = window;
+        near.begin = finding.first - std::min(finding.first, around);
+        near.blank.frames = std::min(finding.last + around + 1, frames) - near.begin;
+        near.blank.feet = report->feet;
+        Expected<Clip> cured = cured_in(near, clip, finding);
+        if (cured || cured.code() != ErrorCode::OutOfRange) return cured;
     }
-    if (fallback) return std::move(*fallback);
-    return tendril::detail::refused("cure", "finding", "one whose cure makes no new fault",
-                                    std::string_view(finding.text));
+    return cured_in(window, clip, finding);
 }
 
 }  // namespace tendril::humanoid

@@ -33,12 +33,12 @@ struct Plan {
 
 /// The foot's correction for each frame of the finding.
 std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const FeetMotion& motion,
-                                 double floor, double rate) {
+                                 double rate) {
     std::vector<glm::dvec3> moves;
     glm::dvec3 slid(0.0), low(0.0), high(0.0);
     for (std::size_t i = finding.first; i <= finding.last; ++i) {
         if (finding.fault != Fault::Skating) {
-            moves.push_back({0.0, floor - foot.height[i], 0.0});
+            moves.push_back({0.0, *motion.floor - foot.height[i], 0.0});
             continue;
         }
         if (i > finding.first) slid = plus(slid, smallest_move(foot, i, times(motion.treadmill, 1.0 / rate)));
@@ -251,7 +251,8 @@ Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height hei
     return plan;
 }
 
-/// The finding and the same faults of this foot before and after it, each within `near` frames of the next.
+/// The finding and the same faults of this foot before and after it, each within `near` frames of the next;
+/// counted from the first frame judged.
 std::vector<Finding> adjacent_findings(const Check& check, const Finding& found, std::size_t near) {
     LintReport report = check.report;
     Check feet{check.skeleton, check.map, check.clip, check.settings, check.height, report};
@@ -268,6 +269,7 @@ std::vector<Finding> adjacent_findings(const Check& check, const Finding& found,
             if (is_near) all.push_back(each), grows = true;
         }
     }
+    for (Finding& each : all) each.first -= check.begin, each.last -= check.begin;
     return all;
 }
 
@@ -309,20 +311,24 @@ Expected<Clip> cure_foot(const Check& check, const Finding& found, const FootCur
     const auto around = static_cast<std::size_t>(std::ceil(options.ease * rate));
     const FeetMotion motion = feet_motion(check);
     const auto record = std::ranges::find(motion.feet, foot, &Foot::node);
-    const auto floor = floor_of(motion, rate);
-    const bool is_known = floor && record != motion.feet.end();
+    const bool is_known = motion.floor && record != motion.feet.end();
     // A leg that is only softened needs no blending.
     Blend blend(check.report.frames, found.snaps ? 1 : around);
     if (found.snaps) {
-        blend.add(found.first, std::vector<glm::dvec3>(found.last - found.first + 1, glm::dvec3(0.0)));
+        blend.add(found.first - check.begin,
+                  std::vector<glm::dvec3>(found.last - found.first + 1, glm::dvec3(0.0)));
     } else {
         if (!is_known || foot != found.node) return other_clip();
         for (const Finding& each : adjacent_findings(check, found, 2 * around))
-            blend.add(each.first, moves_of(*record, each, motion, *floor, rate));
+            blend.add(each.first, moves_of(*record, each, motion, rate));
     }
     const Plan plan = plan_of(legs, blend, around, [&](std::size_t frame) {
-        return is_known ? record->height[frame] - *floor : swings;
+        return is_known ? record->height[frame] - *motion.floor : swings;
     });
+
+    const std::size_t end = check.report.frames, until = plan.first + plan.moves.size();
+    if ((plan.first == 0 && check.begin > 0) || (until == end && check.time_of(end) > check.time_of(end - 1)))
+        return Result(ErrorCode::OutOfRange, "cure: the correction reaches beyond the frames around it");
 
     const bool is_lowered = *std::max_element(plan.drops.begin(), plan.drops.end()) > 0.0;
     const std::vector<std::size_t> nodes = legs.turned(is_lowered);

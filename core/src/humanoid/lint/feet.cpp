@@ -149,34 +149,15 @@ glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& 
     return best;
 }
 
-std::optional<double> floor_of(const FeetMotion& motion, double rate) {
-    constexpr double width = 0.03;
-    std::vector<double> heights, at_rest;
-    for (const Foot& foot : motion.feet) {
-        for (std::size_t i = 0; i < foot.height.size(); ++i) {
-            const bool is_at_rest = std::abs(foot.height[i]) < 0.5 * width;
-            if (!foot.still[i] || (motion.rests_on_ground && !is_at_rest && !foot.is_loaded(i))) continue;
-            heights.push_back(foot.height[i]);
-            if (is_at_rest) at_rest.push_back(foot.height[i]);
-        }
-    }
-    if (motion.hips.size() < 4 || static_cast<double>(heights.size()) < min_stance * rate)
-        return std::nullopt;
-    const bool use_rest = motion.rests_on_ground && 5 * at_rest.size() >= heights.size();
-    std::vector<double>& used = use_rest ? at_rest : heights;
-    std::sort(used.begin(), used.end());
-    return use_rest ? used[used.size() / 2] : densest(used, width);
-}
-
 void check_feet(Check& check) {
     if (check.report.frames < 4) return;
-    const FeetMotion motion = feet_motion(check);
-    if (motion.feet.empty()) return;
+    const auto known = std::make_shared<const FeetMotion>(feet_motion(check));
+    const FeetMotion& motion = *known;
+    if (!check.report.feet) check.report.feet = known;
     check.report.treadmill = motion.treadmill;
-    const std::optional<double> floor = floor_of(motion, check.report.rate);
-    if (!floor) return;
+    if (!motion.floor) return;
     check.report.has_floor = true;
-    check.report.floor = *floor;
+    check.report.floor = *motion.floor;
     const double unknown = motion.has_soles ? 0.0 : 0.015;
     // For an in-place clip the ground's speed is an estimate, and real hips vary in speed within a step. If
     // no foot is ever still, the moment of landing is unknown.

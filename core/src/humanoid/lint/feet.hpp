@@ -49,13 +49,13 @@ struct FeetMotion {
     bool always_slides = false;      ///< no foot is ever still
     bool rests_on_ground = false;    ///< in the rest pose the feet stand flat near height 0
     bool has_soles = false;          ///< feet stand as in the rest pose, which then gives the soles
+    /// Height of the floor that feet stand on: near 0 if the figure rests on the ground and at least a fifth
+    /// of the still frames are there, otherwise the most common height. If it rests on the ground, still feet
+    /// elsewhere are ignored while it sits or lies. nullopt if feet hardly stand.
+    std::optional<double> floor{};
 };
+/// If the check's report has the whole clip's feet, only positions and speeds are those of the judged frames.
 FeetMotion feet_motion(const Check& check);
-
-/// Height of the floor that feet stand on: near 0 if the figure rests on the ground and at least a fifth of
-/// the still frames are there, otherwise the most common height. If it rests on the ground, still feet
-/// elsewhere are ignored while it sits or lies. nullopt if feet hardly stand.
-std::optional<double> floor_of(const FeetMotion& motion, double rate);
 struct FrameRange {
     std::size_t first, last;  // frames
 };

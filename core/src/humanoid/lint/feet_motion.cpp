@@ -221,6 +221,25 @@ void learn_soles(std::vector<Foot>& feet) {
     for (double* const above : learned) *above -= ground;
 }
 
+std::optional<double> floor_of(const FeetMotion& motion, double rate) {
+    constexpr double width = 0.03;
+    std::vector<double> heights, at_rest;
+    for (const Foot& foot : motion.feet) {
+        for (std::size_t i = 0; i < foot.height.size(); ++i) {
+            const bool is_at_rest = std::abs(foot.height[i]) < 0.5 * width;
+            if (!foot.still[i] || (motion.rests_on_ground && !is_at_rest && !foot.is_loaded(i))) continue;
+            heights.push_back(foot.height[i]);
+            if (is_at_rest) at_rest.push_back(foot.height[i]);
+        }
+    }
+    if (motion.hips.size() < 4 || static_cast<double>(heights.size()) < min_stance * rate)
+        return std::nullopt;
+    const bool use_rest = motion.rests_on_ground && 5 * at_rest.size() >= heights.size();
+    std::vector<double>& used = use_rest ? at_rest : heights;
+    std::sort(used.begin(), used.end());
+    return use_rest ? used[used.size() / 2] : densest(used, width);
+}
+
 }  // namespace
 
 double densest(const std::vector<double>& sorted, double width) {
@@ -238,6 +257,22 @@ FeetMotion feet_motion(const Check& check) {
     if (hips < 0 || !check.map.upright) return motion;
     std::vector<Placement> placed(check.skeleton.size());
     place(check.skeleton, rest_pose(check.skeleton), placed);
+    if (const FeetMotion* const whole = check.report.feet.get()) {
+        motion = {.treadmill = whole->treadmill,
+                  .always_slides = whole->always_slides,
+                  .rests_on_ground = whole->rests_on_ground,
+                  .has_soles = whole->has_soles,
+                  .floor = whole->floor};
+        for (const Foot& foot : whole->feet)
+            motion.feet.push_back({.node = foot.node, .points = foot.points, .flat = foot.flat});
+        sample_feet(check, placed, motion);
+        for (Foot& foot : motion.feet) {
+            measure_speed(foot, motion.treadmill, check.report.rate);
+            measure_heights(foot);
+        }
+        find_still(motion.feet, motion.always_slides ? sliding_speed : still_speed);
+        return motion;
+    }
     for (const Side& side : sides)
         if (check.map[side.foot].node >= 0) motion.feet.push_back(foot_of(check, side, placed));
     if (motion.feet.empty()) return motion;
@@ -256,6 +291,7 @@ FeetMotion feet_motion(const Check& check) {
         learn_soles(motion.feet);
         for (Foot& foot : motion.feet) measure_heights(foot);
     }
+    motion.floor = floor_of(motion, check.report.rate);
     return motion;
 }
 

@@ -78,11 +78,12 @@ void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec
     for (std::size_t k = 1; k < track.times.size(); ++k) {
         if (track.times[k] - track.times[k - 1] > tolerance) continue;
         // The first frame at or after the second key; files round times.
-        const auto frame = static_cast<std::size_t>(std::ceil(track.times[k] * rate - 2e-3));
-        for (const std::size_t i : {frame, frame + 1}) {
-            const bool between = i > 0 && i < moves.size() && check.time_of(i) > track.times[k - 1] &&
-                                 check.time_of(i - 1) < track.times[k];
-            if (between) moves[i] = i > 1 ? moves[i - 1] : glm::dvec3(0.0);
+        const double frame = std::ceil(track.times[k] * rate - 2e-3) - static_cast<double>(check.begin);
+        for (const double each : {frame, frame + 1.0}) {
+            if (!(each > 0.0 && each < static_cast<double>(moves.size()))) continue;
+            const auto i = static_cast<std::size_t>(each);
+            if (check.time_of(i) > track.times[k - 1] && check.time_of(i - 1) < track.times[k])
+                moves[i] = i > 1 ? moves[i - 1] : glm::dvec3(0.0);
         }
     }
 }

@@ -9,8 +9,8 @@ namespace {
 using namespace rig::detail;
 
 std::size_t frame_of(const Check& check, double time) {
-    const auto frame = static_cast<std::size_t>(std::floor(time * check.report.rate + 0.5));
-    return std::min(frame, check.report.frames - 1);
+    const double frame = std::floor(time * check.report.rate + 0.5) - static_cast<double>(check.begin);
+    return std::min(static_cast<std::size_t>(std::max(frame, 0.0)), check.report.frames - 1);
 }
 
 /// Keys in the hemisphere opposite to the previous key's, in all tracks.

@@ -15,7 +15,7 @@ std::string shown(double value, int decimals) {
 }
 
 double Check::time_of(std::size_t frame) const noexcept {
-    return std::min(static_cast<double>(frame) / report.rate, clip.duration);
+    return std::min(static_cast<double>(begin + frame) / report.rate, clip.duration);
 }
 
 std::string Check::name_of(std::int32_t node) const {
@@ -24,11 +24,18 @@ std::string Check::name_of(std::int32_t node) const {
 
 Finding& Check::add(Fault fault, std::int32_t node, std::size_t frame, std::size_t first, std::size_t last,
                     double amount, const char* unit, const std::string& text) {
-    Finding finding{fault, node, frame, first, last, time_of(frame), amount, unit, false, false, false, {}};
+    Finding finding{.fault = fault,
+                    .node = node,
+                    .frame = begin + frame,
+                    .first = begin + first,
+                    .last = begin + last,
+                    .time = time_of(frame),
+                    .amount = amount,
+                    .unit = unit};
     finding.text = name_of(node) + ' ' + text;
     finding.text += first == last ? " (frame " : " (frames ";
-    finding.text += std::to_string(first);
-    if (first != last) finding.text += " to " + std::to_string(last);
+    finding.text += std::to_string(finding.first);
+    if (first != last) finding.text += " to " + std::to_string(finding.last);
     finding.text += ')';
     report.findings.push_back(std::move(finding));
     return report.findings.back();
@@ -57,6 +64,19 @@ double height_of(const Skeleton& skeleton) {
 }
 
 }  // namespace
+
+void judge(Check& check) {
+    check.height = height_of(check.skeleton);
+    check_signs(check);
+    check_sizes(check);
+    check_axis(check);
+    check_jumps(check);
+    check_limits(check);
+    check_knees(check);
+    check_feet(check);
+    std::ranges::stable_sort(check.report.findings, {}, &Finding::frame);
+}
+
 }  // namespace lint_detail
 
 const char* name(Fault fault) noexcept {
@@ -69,16 +89,8 @@ LintReport lint(const Skeleton& skeleton, const BoneMap& given, const Clip& clip
                 const LintSettings& settings) {
     const BoneMap& map = detail::map_or_none(given, skeleton);
     LintReport report = lint_detail::blank_report(clip, settings);
-    lint_detail::Check check{skeleton, map, clip, settings, lint_detail::height_of(skeleton), report};
-    check_signs(check);
-    check_sizes(check);
-    check_axis(check);
-    check_jumps(check);
-    check_limits(check);
-    check_knees(check);
-    check_feet(check);
-    std::stable_sort(report.findings.begin(), report.findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.frame < b.frame; });
+    lint_detail::Check check{skeleton, map, clip, settings, 0.0, report};
+    judge(check);
     return report;
 }
 

@@ -22,8 +22,9 @@ struct Check {
     const BoneMap& map;
     const Clip& clip;
     const LintSettings& settings;
-    double height;  ///< the figure's height at rest, metres
+    double height;  ///< the figure's height at rest, metres; judge() sets it
     LintReport& report;
+    std::size_t begin = 0;  ///< the first frame judged; the checks count from it, findings from time 0
 
     double time_of(std::size_t frame) const noexcept;
     /// "LeftFoot"; "The figure" if `node` is negative.
@@ -32,6 +33,9 @@ struct Check {
     Finding& add(Fault fault, std::int32_t node, std::size_t frame, std::size_t first, std::size_t last,
                  double amount, const char* unit, const std::string& text);
 };
+
+/// Adds the findings of all checks. A check that begins with a report on the clip's feet keeps their floor.
+void judge(Check& check);
 
 /// An empty report on a clip: only rate and frames are set.
 LintReport blank_report(const Clip& clip, const LintSettings& settings);
@@ -85,7 +89,7 @@ struct FootCure {
 };
 
 /// The clip without the fault: the foot stands, or its leg no longer snaps. Refuses a finding that is not in
-/// the clip.
+/// the clip, and one whose cure would reach beyond the judged frames.
 Expected<Clip> cure_foot(const Check& check, const Finding& finding, const FootCure& options);
 
 }  // namespace tendril::humanoid::lint_detail
