@@ -177,12 +177,9 @@ void App::compose(const Event* event, Pass pass) {
         hint = bound;
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
     if (hint.empty()) hint = discards_text(workspace_);
-    if (hint.empty())
-        hint = view_hint(mouse_preset(workspace_.settings), scroll_action(workspace_.settings)) +
-               " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
-    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card(),
-                  cards_.of(workspace_.lab), panes_.front().drawn.strokes},
+    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, input_.by_finger(),
+                  shown_card(), cards_.of(workspace_.lab), panes_.front().drawn.strokes},
                  emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
         refuse(why);

@@ -18,6 +18,7 @@ void Input::take(const Event* event) {
         mouse_ = move->at;
     } else if (const auto* press = std::get_if<MousePress>(event)) {
         buttons_[static_cast<std::size_t>(press->button)] = press->down;
+        by_finger_ = press->by_finger;
     } else if (const auto* key = std::get_if<KeyChange>(event)) {
         repeated_ = key->down && held(key->key);
         hold(key->key, key->down);

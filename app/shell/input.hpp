@@ -18,6 +18,8 @@ class Input {
 
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
+    /// True if the last press was a finger's.
+    bool by_finger() const { return by_finger_; }
     bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
     /// True if the key is held and was not pressed in a chord with Ctrl or Alt.
     bool held_alone(Key key) const { return held(key) && !in_chord_[static_cast<std::size_t>(key)]; }
@@ -36,7 +38,7 @@ class Input {
     std::array<bool, 3> buttons_{};
     std::bitset<static_cast<std::size_t>(Key::Count)> keys_, in_chord_;
     Chord pressed_;
-    bool tapped_ = false, repeated_ = false;
+    bool tapped_ = false, repeated_ = false, by_finger_ = false;
     std::bitset<static_cast<std::size_t>(Key::Count)> before_tap_;
 };
 

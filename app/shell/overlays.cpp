@@ -227,7 +227,7 @@ Rect show_first_hint(const ShellFrame& frame) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
     const std::string first = frame.lab.invitation(frame.workspace);
-    const std::string rest = orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
+    const std::string rest = view_hint(frame.workspace.settings, frame.by_finger, true);
     std::string text = first + " " + rest;
     if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large text in a small view

@@ -262,7 +262,11 @@ void status_bar(const ShellFrame& frame) {
     const float room = ImGui::GetContentRegionAvail().x;
     const std::string scene = elided(name + (workspace.modified() ? " *" : ""), 0.4f * room);
     const float scene_width = ImGui::CalcTextSize(scene.c_str()).x;
-    text_elided(frame.hint, room - scene_width - 2.0f * ImGui::GetFontSize(), true);
+    const float free = room - scene_width - 2.0f * ImGui::GetFontSize();
+    std::string hint = frame.hint.empty() ? view_hint(workspace.settings, frame.by_finger) : frame.hint;
+    if (frame.hint.empty() && ImGui::CalcTextSize(hint.c_str()).x > free)
+        hint = view_hint(workspace.settings, frame.by_finger, true);
+    text_elided(hint, free, true);
     ImGui::SameLine(room - scene_width + ImGui::GetWindowContentRegionMin().x);
     ImGui::TextDisabled("%s", scene.c_str());
     ImGui::PopFont();

@@ -58,7 +58,8 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;                 ///< the mouse's effect where it is
+    std::string hint;                 ///< the mouse's effect where it is; empty: in the view
+    bool by_finger = false;           ///< the last press
     const Card* card = nullptr;       ///< the shown card of things to try, if any
     std::span<const Card> cards{};    ///< all cards of the lab
     std::span<const Stroke> drawn{};  ///< the scene's strokes in the last picture

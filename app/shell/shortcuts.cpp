@@ -207,19 +207,17 @@ std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, 
     return std::nullopt;
 }
 
-std::string orbit_hint(MousePreset preset) {
-    return first_gesture(preset, MouseAction::Orbit) + " turns the view.";
-}
-
-std::string view_hint(MousePreset preset, Scroll scroll) {
-    if (scroll == Scroll::Pan)
-        return first_gesture(preset, MouseAction::Orbit) +
-               " turns the view, two fingers shift it; with Ctrl they zoom.";
+std::string view_hint(const Settings& settings, bool by_finger, bool brief) {
+    if (by_finger) return "One finger turns the view, two move and zoom it.";
+    const MousePreset preset = mouse_preset(settings);
     std::string pan = first_gesture(preset, MouseAction::Pan);
     if (!pan.starts_with("Alt") && !pan.starts_with("Shift"))
         pan[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(pan[0])));
-    return first_gesture(preset, MouseAction::Orbit) + " turns the view, " + pan +
-           " shifts it, the wheel zooms.";
+    const std::string more = brief ? ""
+                             : scroll_action(settings) == Scroll::Pan
+                                 ? ", two fingers shift it; with Ctrl they zoom"
+                                 : ", " + pan + " shifts it, the wheel zooms";
+    return first_gesture(preset, MouseAction::Orbit) + " turns the view" + more + ". ? shows every key.";
 }
 
 }  // namespace tendril::app

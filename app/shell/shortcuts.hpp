@@ -32,10 +32,9 @@ struct HeldKeys {
 /// orbits, in every preset.
 std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held);
 
-/// "Right-drag turns the view, middle-drag shifts it, the wheel zooms."
-std::string view_hint(MousePreset preset, Scroll scroll = Scroll::Zoom);
-/// "Right-drag turns the view."
-std::string orbit_hint(MousePreset preset);
+/// "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key." A brief one leaves
+/// out how to shift and zoom.
+std::string view_hint(const Settings& settings, bool by_finger, bool brief = false);
 
 class CommandTable;
 

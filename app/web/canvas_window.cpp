@@ -227,7 +227,7 @@ void CanvasWindow::on_touch(int kind, const EmscriptenTouchEvent& event) {
     }
     const Fingers now = down.empty() ? Fingers::None : down.size() == 1 ? Fingers::One : Fingers::Two;
     const auto press = [this](MouseButton button, bool pressed) {
-        pending_.emplace_back(MousePress{button, pressed});
+        pending_.emplace_back(MousePress{button, pressed, true});
     };
     const glm::vec2 at = now == Fingers::None  ? lifted
                          : now == Fingers::One ? down[0]

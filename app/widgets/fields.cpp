@@ -230,14 +230,23 @@ bool text_field(const char* name, std::string& value, const char* hint, float ro
 }
 
 bool path_field(const char* name, std::string& value, const char* hint, const char* by, Emit& emit) {
-    constexpr const char* title = "Browse";
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, padding = ImGui::GetStyle().FramePadding.x;
-    const bool entered = text_field(name, value, hint, ImGui::CalcTextSize(title).x + padding + gap);
-    ImGui::SameLine(0.0f, gap);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.5f * padding, ImGui::GetStyle().FramePadding.y});
-    if (ImGui::Button((std::string(title) + "##" + name).c_str())) emit("scene.open_dialog", {{"by", by}});
-    ImGui::PopStyleVar();
+    const bool entered = text_field(name, value, hint, field_button_width("Browse"));
+    if (field_button("Browse", name)) emit("scene.open_dialog", {{"by", by}});
     return entered;
+}
+
+float field_button_width(const char* title) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    return ImGui::CalcTextSize(title).x + style.FramePadding.x + style.ItemInnerSpacing.x;
+}
+
+bool field_button(const char* title, const char* name) {
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.5f * padding.x, padding.y});
+    const bool pressed = ImGui::Button((std::string(title) + "##" + name).c_str());
+    ImGui::PopStyleVar();
+    return pressed;
 }
 
 bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {

@@ -51,6 +51,9 @@ bool integer_slider(const char* name, int& value, int low, int high);
 /// while the line is empty. `value` always follows what is typed, for a button beside the field.
 /// `room`: pixels that stay free on the right.
 bool text_field(const char* name, std::string& value, const char* hint, float room = 0.0f);
+/// The room that a button takes at the end of a field's row, and the button.
+float field_button_width(const char* title);
+bool field_button(const char* title, const char* name);
 /// A path, with a button that opens the file dialog for the command `by`.
 bool path_field(const char* name, std::string& value, const char* hint, const char* by, Emit& emit);
 /// Call before an ImGui::InputText() of that id and text. Text that is too wide for the next item and is not
@@ -130,6 +133,7 @@ struct ListRoom {
     float width = 0.0f;  ///< width of its rows, in pixels; 0: enough for most names
     int rows = 10;
     std::optional<glm::vec3> swatch{};  ///< the colour that the field's choice stands for
+    float after = 0.0f;                 ///< free pixels after the field
 };
 
 /// Begins the list of a field. If it returns true, add rows and call end_list(). With `shown`, the field is a

@@ -93,6 +93,7 @@ bool begin_list(const char* name, const std::string* shown, ListRoom room) {
     std::string id = std::string("##") + name + " list", preview;  // beside a field of that name
     if (shown != nullptr) {
         id = begin_row(name);
+        if (room.after > 0.0f) ImGui::SetNextItemWidth(-room.after);
         const float buttons = room.swatch ? 2.0f : 1.0f;  // the arrow, and a swatch before it
         preview = elided(*shown, ImGui::CalcItemWidth() - buttons * ImGui::GetFrameHeight() -
                                      ImGui::GetStyle().FramePadding.x);

@@ -26,6 +26,7 @@ struct MouseMove {
 struct MousePress {
     MouseButton button = MouseButton::Left;
     bool down = true;
+    bool by_finger = false;
 };
 /// Notches of the wheel, positive away from the user; a touchpad sends fractions. A tilting wheel or a
 /// touchpad also scrolls sideways: positive to the left.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <stdexcept>
@@ -116,6 +117,15 @@ class Attempts {
     }
 
     float reach() const { return reach_; }
+    /// How far a direction stays from the target's line, both ways: 0 in line with it in some frame, 1 square
+    /// to it in all.
+    float aside(glm::vec3 way) const {
+        float smallest = 1.0f;
+        for (const TracedFrame& frame : frames_)
+            if (const glm::vec3 line = frame.goal() - frame.joints.front(); frame.finite())
+                smallest = std::min(smallest, 1.0f - std::abs(glm::dot(direction({}, line), way)));
+        return smallest;
+    }
     bool prevents(const TraceSolve& how) const { return run(how).prevents(); }
     Attempt run(const TraceSolve& how) const {
         Retrace chain(how);
@@ -165,20 +175,21 @@ std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame&
         const TraceSolve how = with(by);
         return Prevention{Prevention::Kind::Pole, how, how.pole(at), !at.pole};
     };
-    if (!at.pole) {  // to one side, half the reach from the middle of the target's line
-        for (int i = 0; i < ways; ++i) {
-            const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
-            const glm::vec3 by =
-                0.5f * line + 0.5f * attempts.reach() * (math::cosine(angle) * u + math::sine(angle) * v);
-            if (attempts.prevents(with(by))) return found(by);
-        }
+    std::array<glm::vec3, ways> sides;
+    for (int i = 0; i < ways; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
+        sides[static_cast<std::size_t>(i)] = math::cosine(angle) * u + math::sine(angle) * v;
+    }
+    if (!at.pole) {  // half the reach from the middle of the target's line, square to where that goes
+        std::ranges::stable_sort(sides, std::greater(), [&](glm::vec3 way) { return attempts.aside(way); });
+        for (const glm::vec3 way : sides)
+            if (const glm::vec3 by = 0.5f * (line + attempts.reach() * way); attempts.prevents(with(by)))
+                return found(by);
         return std::nullopt;
     }
     float below = 0.0f;
     for (const float share : shares) {
-        for (int i = 0; i < ways; ++i) {
-            const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
-            const glm::vec3 way = math::cosine(angle) * u + math::sine(angle) * v;
+        for (const glm::vec3 way : sides) {
             if (!attempts.prevents(with(share * attempts.reach() * way))) continue;
             float low = below, high = share;
             for (int half = 0; half < halvings; ++half) {

@@ -36,7 +36,8 @@ std::optional<Study::From> start_of(const Arguments& given) {
 
 Argument start_argument() {
     return choice_argument("start", false,
-                           "the start of each solve: the last start, the current pose, or a straight line",
+                           "the start of each solve: the last start, the current pose, or a straight "
+                           "line; default: the last, or straight if the chain has arrived",
                            {std::begin(starts), std::end(starts)});
 }
 
@@ -44,7 +45,14 @@ Argument start_argument() {
 template <Study::Kind kind>
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (!part.result) part.study.last_start.clear();  // bent by hand since the last solve
-    part.study.begin(kind, start_of(given), part.chain, part.reach);
+    const bool opens = !part.study.open();
+    const auto from = start_of(given);
+    part.study.begin(kind, from, part.chain, part.reach);
+    // A chain that has arrived would have nothing to show.
+    if (opens && !from && part.result &&
+        glm::distance(part.study.start.back(), part.target) <=
+            reach_tolerance(part.reach, part.chain.reach()))
+        part.study.begin(kind, Study::From::Straight, part.chain, part.reach);
     enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);
 }

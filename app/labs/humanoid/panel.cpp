@@ -121,12 +121,9 @@ void pace_rows(const HumanoidPanel& panel) {
 void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
     const Playback& playback = panel.part.playback;
-    if (clips.empty()) {
-        note("The character has no clips.");
-        return motion_rows(panel, more);
-    }
-    const std::string shown = playback.clip ? clips[*playback.clip].name : "none (rest pose)";
-    if (begin_list("clip", &shown)) {
+    if (clips.empty()) note("The character has no clips.");
+    const std::string shown = playback.clip ? clips[*playback.clip].name : "none";
+    if (begin_list("clip", &shown, {.after = field_button_width("Load")})) {
         if (list_row("none (rest pose)", !playback.clip)) panel.emit("humanoid.clip", {{"name", ""}});
         for (std::size_t i = 0; i < clips.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
@@ -136,12 +133,15 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
         }
         end_list();
     }
-    explain("The motion to play. Type part of a name to find one.");
+    if (field_button("Load", "clip")) panel.emit("scene.open_dialog", {{"by", "humanoid.motion.load"}});
+    explain(
+        "The motion to play. Type part of a name to find one. Load takes a motion of another character from "
+        "a file: it is retargeted through the two bone maps, and feet stand where the other's do.");
+    motion_note(panel);
     FieldRows(playback, "humanoid.clip", panel.emit)
         .under(more)
         .rows("speed", "loop", "in_place", "travel", "targets_travel");
     pace_rows(panel);
-    motion_rows(panel, more);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void bone_rows(const HumanoidPanel& panel, bool open_at_first);
 /// The clip and its playback.
 void clip_rows(const HumanoidPanel& panel);
 /// A clip of another character.
-void motion_rows(const HumanoidPanel& panel, MoreRows& more);
+void motion_note(const HumanoidPanel& panel);
 /// Effectors and their targets.
 void target_rows(const HumanoidPanel& panel);
 /// The source of joint limits.

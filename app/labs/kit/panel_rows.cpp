@@ -104,7 +104,7 @@ void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& e
     if (!cure) return;
     if (!above && !text.empty()) ImGui::SameLine(0.0f, 0.0f);
     ImGui::SetCursorPosX(left + std::max(0.0f, room - width));
-    if (ImGui::SmallButton(cure->title.c_str()))
+    if (ImGui::SmallButton((cure->title + "##" + cure->text).c_str()))
         for (const CommandCall& call : cure->calls) emit.continuously(call.name, call.arguments);
     explain(cure->help.c_str());
 }

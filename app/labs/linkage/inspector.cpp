@@ -132,9 +132,10 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
         explain("Between its two bars; with a single bar, from +X.");
     }
     if (!part.shape->in_plane()) return;
-    bar_rows(part, *at, emit);
     const ik::SketchHold hold = part.shape->sketch.points[*at].hold;
     const bool pinned = hold == ik::SketchHold::Pinned, guided = hold == ik::SketchHold::Guided;
+    if (pinned) note("It stays in place. Click a joint that moves: its path is drawn.");
+    bar_rows(part, *at, emit);
     if (row_option("Free", 3, !pinned && !guided, "Held only by its bars"))
         emit("linkage.pin", {{"point", part.selected}, {"on", false}});
     if (row_option("Pinned", 3, pinned, "Pinned to the ground"))

@@ -9,6 +9,7 @@
 #include "app/io/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 
@@ -87,8 +88,8 @@ UnitOffer with_item(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
-/// The item's own axis that points most nearly at the other element. Unless that is y, its length, also the
-/// axis that points up, which stays up: a head stays upright.
+/// The item's own axis that points most nearly at the other element; a head's face, wherever that is. Unless
+/// it is y, its length, also the axis that points up, which stays up: a head stays upright.
 void aim_at(const RigPart& part, const rig::Element& item, const rig::Element& other, Json& unit) {
     constexpr int length = 1;
     rig::Hierarchy now = part.state->elements;
@@ -108,7 +109,9 @@ void aim_at(const RigPart& part, const rig::Element& item, const rig::Element& o
         unit_vector[at] = way[at] < 0.0 ? -1.0 : 1.0;
         return dpoint(unit_vector);
     };
-    const glm::dvec3 ahead = to_own * (pose(other).translation - from.translation);
+    const glm::dvec3 ahead = figure_of(part, *part.rig.element(item.name)) == Figure::Head
+                                 ? glm::dvec3(0, 0, 1)
+                                 : to_own * (pose(other).translation - from.translation);
     const glm::dvec3 up = to_own * glm::dvec3(0, 1, 0);
     const int first = nearest(ahead, -1);
     unit["primary"] = {{"axis", axis(ahead, first)}, {"target", other.name}};

@@ -60,7 +60,7 @@ void character_rows(const Walker& walker, Emit& emit) {
         if (!path.empty()) given.push_back({"path", path});
         emit.continuously("rope.character", given);
     };
-    if (text_field("character", file, "type its path") && file != now && !file.empty())
+    if (path_field("character", file, "or drop one", "rope.character", emit) && file != now && !file.empty())
         emit("rope.character", {{"path", file}, {"at", walker.at}});
     explain("A character with its clips: .gltf, .glb, .vrm, .vrma, .fbx or .bvh. Enter reads it.");
     if (row_button("Stick figure", 2, !walker.figure || !now.empty(), "The built-in figure walks in"))
@@ -172,8 +172,13 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    show_verdict(paced_verdict(rope_verdict(part), workspace), palette(workspace.settings.theme), emit);
-    if (!part.tears.empty()) cure_line(torn_text(part.tears), restart_of_torn(part), emit, true);
+    Verdict said = paced_verdict(rope_verdict(part), workspace);
+    const std::string torn = part.tears.empty() ? "" : torn_text(part.tears);
+    const bool now = said.text.starts_with("Torn");
+    if (now && !torn.empty()) said.why = torn + ": drag the timeline back to see it.";
+    show_verdict(said, palette(workspace.settings.theme), emit, {.notes = 3}, [&] {
+        if (!now && !torn.empty()) cure_line(torn, restart_of_torn(part), emit, true);
+    });
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
 }

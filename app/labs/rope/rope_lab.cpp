@@ -272,9 +272,9 @@ Verdict rope_verdict(const RopePart& part) {
                     "It joins pins " + fixed_text(worst.apart, decimals) + " m apart and is " +
                         fixed_text(worst.length, decimals) + " m long. Unpin one of them."};
         return {off, Verdict::Kind::Bad,
-                "The pins of " + worst.from + (one ? "" : " and " + worst.to) + " are " +
-                    fixed_text(worst.apart, decimals) + " m apart; " +
-                    (one ? "between them it is " : "tied, the two reach ") +
+                (holds(part) ? "The pins and the drag of " : "The pins of ") + worst.from +
+                    (one ? "" : " and " + worst.to) + " are " + fixed_text(worst.apart, decimals) +
+                    " m apart; " + (one ? "between them it is " : "tied, the two reach ") +
                     fixed_text(worst.length, decimals) + (one ? " m long." : " m.")};
     }
     std::uint64_t torn = 0;
@@ -282,7 +282,7 @@ Verdict rope_verdict(const RopePart& part) {
     if (torn > 0)
         return {"Torn", Verdict::Kind::Open,
                 count_text(torn, "link") + " tore in the last ten seconds: drag the timeline back to see it.",
-                part.tears.empty() ? restart_of_torn(part) : std::nullopt};
+                restart_of_torn(part)};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
@@ -314,12 +314,11 @@ Verdict rope_verdict(const RopePart& part) {
         const double kept = static_cast<double>(report.substeps) / all;
         const auto longest = 1e3 * static_cast<double>(part.world->settings().longest_frame);
         if (kept < slow_share)
-            return {
-                "Lengths hold" + at_pace(kept), Verdict::Kind::Open,
-                holds(part)
-                    ? "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."
-                    : "Frames are longer than the longest frame, " + fixed_text(longest, 1) +
-                          " ms, or need more work than a tick allows: the rest of their time is dropped."};
+            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
+                    holds(part)
+                        ? "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."
+                        : "Frames are longer than the longest frame, " + fixed_text(longest, 1) +
+                              " ms, or too much work for a tick: some of their time is dropped."};
     }
     return {
         "Lengths hold", Verdict::Kind::Good,

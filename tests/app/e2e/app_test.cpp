@@ -25,6 +25,29 @@ class AppTest : public testing::Test, protected DrivenApp {
     }
 };
 
+/// The status line at rest: of the last press, and no longer than the window.
+TEST_F(AppTest, SaysHowToTurnTheView) {
+    const auto says = [&](const std::string& hint) {
+        take(MouseMove{{640.0f, 650.0f}});
+        return seen(hint).has_value();
+    };
+    const std::string brief = "Right-drag turns the view. ? shows every key.";
+    EXPECT_TRUE(
+        says("Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key."));
+    run("view.scroll", {{"does", "pan"}});
+    EXPECT_TRUE(
+        says("Right-drag turns the view, two fingers shift it; with Ctrl they zoom. "
+             "? shows every key."));
+    EXPECT_FALSE(says(brief));
+    take(Resize{{480, 720}});
+    EXPECT_TRUE(says(brief));
+    const std::string touch = "One finger turns the view, two move and zoom it.";
+    for (const bool down : {true, false}) take(MousePress{MouseButton::Left, down, true});
+    EXPECT_TRUE(says(touch));
+    for (const bool down : {true, false}) take(MousePress{MouseButton::Left, down});
+    EXPECT_FALSE(says(touch));
+}
+
 LABEL(slow, "AppTest.DrawCallsDoNotGrowWithSegments");
 
 TEST_F(AppTest, DrawCallsDoNotGrowWithSegments) {

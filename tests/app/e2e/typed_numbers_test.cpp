@@ -165,7 +165,7 @@ TEST(TypedNumbers, TabSkipsTheBendingThatTheSolverIgnores) {
                                .command("rope.select", {{"rope", "rope"}, {"particle", 3}})
                                .command("rope.settings", {{"solver", solver}})
                                .wait(2)
-                               .click({1186.0f, 659.0f})  // stretch
+                               .click({1186.0f, 674.0f})  // stretch
                                .wait(2)
                                .key("tab")
                                .wait(2)

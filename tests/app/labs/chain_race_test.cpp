@@ -106,6 +106,16 @@ TEST_F(ChainRace, AnIterationEqualsTheLibrarysWithAsManyIterations) {
     EXPECT_GT(compared, 60) << "iterations on the way, not only ends";
 }
 
+TEST_F(ChainRace, OfAChainThatHasArrivedStartsStraight) {
+    reach_with(6);
+    for (int i = 0; i < 3; ++i) run("chain.target", {{"to", {3, 3, 1}}});
+    run("race.open");
+    EXPECT_GT(race()->iterations(), 0u);
+    run("race.close");
+    run("race.open", {{"start", "here"}});
+    EXPECT_EQ(race()->iterations(), 0u) << "on request";
+}
+
 TEST_F(ChainRace, OpensAtItsEndAndStaysThereAsTheTargetMoves) {
     race_of(6);
     run("chain.target", {{"to", {3, 3, 1}}});

@@ -7,6 +7,7 @@
 #include "app/labs/linkage/measures.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/linkage_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
@@ -116,6 +117,8 @@ TEST_F(LinkageReading, ADrawnLegIsShortenedAtEitherEndOfItsTravelAndItsPathIsSmo
             run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}});
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
         run("linkage.motor.add", {{"point", "A"}});
+        run("linkage.select", {{"point", "A"}});
+        EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Click a joint its path"));
         run("linkage.drive", {{"joint", "motor 1"}, {"angle_deg", 45}});
         run("linkage.length", {{"bar", "AB"}, {"length", 0.95}});
         run("linkage.select", {{"point", "H"}});

@@ -60,7 +60,9 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
     add_rope("line", {0, 1, 0}, {1, 1, 0}, {{"pin_start", true}, {"pin_end", true}});
     run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
     wait(60);
-    EXPECT_TRUE(test::says(state()["why"], "pins line 1.50 m apart 1.00 m long"));
+    EXPECT_TRUE(test::says(state()["why"], "The pins of line 1.50 m apart 1.00 m long"));
+    run("rope.hold", {{"rope", "line"}, {"particle", 16}, {"at", {0.5, 1, 0}}}, 7);
+    EXPECT_TRUE(test::says(state()["why"], "drag of line")) << state()["why"];
     run("rope.clear");
     add_cloth("sheet", {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, 5, 5, "corners");
     run("rope.pin", {{"rope", "sheet"}, {"particle", 4}, {"at", {1.6, 1, 0}}});

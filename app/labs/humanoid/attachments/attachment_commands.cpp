@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <tendril/humanoid/t_pose.hpp>
 #include <tendril/magnitude.hpp>
 
 #include "app/fields/field_rows.hpp"
@@ -134,6 +135,26 @@ void set_wind(HumanoidPart& part, const Arguments& given) {
     world.set_settings(wanted);
     part.attachments.world = std::make_shared<const NamedWorld>(std::move(world));
     part.quiet_ticks = 0;
+}
+
+/// The wind's direction as the figure feels it: its axes are the scene's.
+std::string wind_text(const HumanoidPanel& panel) {
+    const glm::dvec3 wind(panel.part.attachments.world->settings().wind);
+    const auto hips = panel.part.node_of(humanoid::Bone::Hips);
+    if (!hips || wind == glm::dvec3(0.0)) return {};
+    const humanoid::Facing at = humanoid::facing(panel.part.skeleton(), *panel.part.map);
+    const glm::dquat turn =
+        wearer_of(panel.part, panel.runtime.solvers, panel.runtime.shown(panel.workspace)).frame(*hips).turn;
+    std::string text;
+    const auto add = [&](const glm::dvec3& way, const char* along, const char* against) {
+        const double share = glm::dot(glm::normalize(wind), turn * way);
+        if (std::abs(share) < 0.38) return;  // within 22 degrees of square to it
+        text += std::string(text.empty() ? "Blows " : ", ") + (share > 0.0 ? along : against);
+    };
+    add(at.forward, "from behind", "from the front");
+    add(at.left, "to its left", "to its right");
+    add(at.up, "upwards", "downwards");
+    return text + '.';
 }
 
 void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
@@ -278,6 +299,7 @@ void attachment_rows(const HumanoidPanel& panel) {
     FieldRows({wind_fields(), &panel.part.attachments.world->settings(), &attachment_settings}, wind_texts(),
               "humanoid.wind", panel.emit)
         .all();
+    if (const std::string way = wind_text(panel); !way.empty()) note(way);
 }
 
 glm::vec3 attached_colour(const Palette& palette) {

@@ -349,7 +349,7 @@ AttachmentShape fitting_shape(const Wearer& wearer, AttachmentKind kind, std::si
     if (trunk) shape.direction = glm::normalize(0.8 * back - 0.6 * facing.up);
     const dvec3 from = bone == Bone::Head ? 0.09 * unit * facing.up : dvec3(0.0);
     const dvec3 way = trunk ? back : shape.direction;
-    shape.offset = from + way_off(wearer, rest + from, way, 0.5 * (shape.width + shape.thickness)) * way;
+    shape.offset = from + way_off(wearer, rest + from, way, 0.5 * shape.thickness) * way;
     return shape;
 }
 

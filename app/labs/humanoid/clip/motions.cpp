@@ -100,14 +100,7 @@ void load_motion(Workspace& workspace, const Arguments& given) {
 
 }  // namespace
 
-void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
-    more.add("motion", {"humanoid.motion.load", {"path"}}, false, [&panel] {
-        if (row_button("Load motion", 1, true,
-                       "Chooses a file with a motion of another character. Its first clip is retargeted "
-                       "through the two bone maps; feet stand where the other's do."))
-            panel.emit("scene.open_dialog", {{"by", "humanoid.motion.load"}});
-        end_row();
-    });
+void motion_note(const HumanoidPanel& panel) {
     if (!panel.part.playback.clip) return;
     const LoadedMotion* motion = motion_of(*panel.part.loaded, *panel.part.playback.clip);
     if (!motion) return;

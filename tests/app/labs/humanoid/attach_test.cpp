@@ -7,6 +7,7 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/io/posed.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/labels.hpp"
 #include "tests/places.hpp"
 
@@ -45,6 +46,8 @@ TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     EXPECT_EQ(particle("tail", 0), bone("Hips"));
     EXPECT_LT(last("tail").z, -0.4) << "it leaves the body backwards";
     EXPECT_LT(particle("ponytail", 0).z, -0.08);
+    const glm::dvec3 root = particle("ponytail", 0);  // in the middle of the strands
+    EXPECT_GT(depth(capsules(), root, root), -0.012) << "it grows from the head";
     EXPECT_GT(particle("ponytail", 0).y, 1.6);
     const std::size_t row = body("cape").row;
     EXPECT_GT(particle("cape", 0).x, 0.12) << "from the left shoulder";
@@ -108,6 +111,15 @@ TEST_F(HumanoidAttach, HangsInOneWind) {
     for (const char* name : {"cape", "ponytail", "tail"}) EXPECT_NEAR(middle(name), 0.0, 0.01) << name;
     wait(90);
     for (const char* name : {"cape", "ponytail", "tail"}) EXPECT_GT(middle(name), 0.02) << name;
+    run("view.fold", {{"section", "humanoid"}, {"folded", false}});
+    const auto blows = [&](const Json& way, const char* text) {
+        run("humanoid.wind", {{"wind", way}});
+        const std::string panel = test::PanelReader().panel(lab(), workspace);
+        EXPECT_NE(panel.find(text), panel.npos) << way;
+    };
+    blows({0.0, 0.0, 3.0}, "Blows from behind.");
+    blows({0.0, -3.0, 0.5}, "Blows downwards.");
+    blows(wind.at("wind"), "Blows from the front, to its left.");
     EXPECT_LT(particle_depth(), 0.005);
     expect_goes_on_the_same();
     wait(600);
