@@ -57,7 +57,7 @@ TEST(RopeClothSizes, SwingsAlikeInAnySubstep) {
                         square_cloth({0, 0, 0}, {0, 0, 1}, {0.342f, -0.94f, 0}, 8, ClothShape::Pins::Row));
         run(world, 2.0);
         double mean = 0.0;
-        for (const dvec3& at : world.state().position) mean += at.x / static_cast<double>(world.size());
+        for (const glm::dvec3& at : world.state().position) mean += at.x / static_cast<double>(world.size());
         EXPECT_NEAR(mean, 0.091, 0.004) << rate;
     }
 }

@@ -335,7 +335,7 @@ bool ChainNewton::holds_end(const ContactScratch::LinkContact& contact, std::uin
 /// Chooses the deepest touches of a link, each with another collider, and apart from each other. Touches that
 /// rest stay.
 bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
-    using Touch = ContactScratch::LinkContact::Touch;
+    using LinkTouch = ContactScratch::LinkContact::Touch;
     const detail::ChainBond& bond = s_.bonds[contact.bond];
     const dvec3 a = s_.nodes[contact.bond].x, b = s_.nodes[contact.bond + 1].x;
     const bool moved = s_.progress.moved, may_release = s_.progress.may_release;
@@ -409,7 +409,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     for (std::size_t i = 0; i < count; ++i) {
         changed |= effects[i].gap < -tolerance;
         changed |=
-            may_release && std::ranges::none_of(std::span(earlier).first(held), [&](const Touch& touch) {
+            may_release && std::ranges::none_of(std::span(earlier).first(held), [&](const LinkTouch& touch) {
                 return touch.collider == contact.touches[i].collider;
             });
     }
