@@ -37,7 +37,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -88,8 +88,30 @@ struct LintSettings {
 };
 
 namespace lint_detail {
-struct FeetMotion;
-}
+
+/// A point of the sole: a node of the foot, lowered by its height above the ground when the foot stands flat.
+/// The offset does not turn with the foot, so that errors in the sole do not grow when the foot tilts. The
+/// heel and toe of find_soles() are not used: foot IK must turn them along, but they are guesses from the
+/// rest pose, and a clip must not be blamed for a guess.
+struct SolePoint {
+    std::size_t node;
+    double above;  ///< metres
+};
+
+/// How the feet of a whole clip stand.
+struct KnownFeet {
+    struct Foot {
+        std::int32_t node = -1;
+        std::vector<SolePoint> points{};  ///< ankle, ball and tip, if present
+        glm::dvec3 flat{0.0, 1.0, 0.0};   ///< up, in the foot's own space, when it stands flat
+    };
+    std::vector<Foot> feet{};   ///< none, one or two
+    glm::dvec3 treadmill{0.0};  ///< the ground's velocity under a figure that walks in place, m/s
+    bool are_known = false, always_slides = false, rests_on_ground = false, has_soles = false;
+    std::optional<double> floor{};
+};
+
+}  // namespace lint_detail
 
 /// Frames beyond this are not judged.
 inline constexpr std::size_t max_lint_frames = 500'000;
@@ -105,7 +127,7 @@ struct LintReport {
     double skating = 0.0;             ///< maximum slide of a standing foot, metres, even if tolerated
     std::vector<Finding> findings{};  ///< by frame
     /// How the clip's feet stand, for cure().
-    std::shared_ptr<const lint_detail::FeetMotion> feet{};
+    lint_detail::KnownFeet feet{};
 };
 
 /// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within

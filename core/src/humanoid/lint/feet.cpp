@@ -151,9 +151,16 @@ glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& 
 
 void check_feet(Check& check) {
     if (check.report.frames < 4) return;
-    const auto known = std::make_shared<const FeetMotion>(feet_motion(check));
-    const FeetMotion& motion = *known;
-    if (!check.report.feet) check.report.feet = known;
+    const FeetMotion motion = feet_motion(check);
+    if (KnownFeet& known = check.report.feet; !known.are_known) {
+        known = {.treadmill = motion.treadmill,
+                 .are_known = true,
+                 .always_slides = motion.always_slides,
+                 .rests_on_ground = motion.rests_on_ground,
+                 .has_soles = motion.has_soles,
+                 .floor = motion.floor};
+        for (const Foot& foot : motion.feet) known.feet.push_back({foot.node, foot.points, foot.flat});
+    }
     check.report.treadmill = motion.treadmill;
     if (!motion.floor) return;
     check.report.has_floor = true;

@@ -13,15 +13,6 @@ using detail::Limb;
 
 inline constexpr double min_stance = 0.15;  // seconds
 
-/// A point of the sole: a node of the foot, lowered by its height above the ground when the foot stands flat.
-/// The offset does not turn with the foot, so that errors in the sole do not grow when the foot tilts. The
-/// heel and toe of find_soles() are not used: foot IK must turn them along, but they are guesses from the
-/// rest pose, and a clip must not be blamed for a guess.
-struct SolePoint {
-    std::size_t node;
-    double above;  ///< metres
-};
-
 struct Foot {
     std::int32_t node = -1;
     std::vector<SolePoint> points{};  ///< ankle, ball and tip, if present

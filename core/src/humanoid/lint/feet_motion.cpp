@@ -257,13 +257,13 @@ FeetMotion feet_motion(const Check& check) {
     if (hips < 0 || !check.map.upright) return motion;
     std::vector<Placement> placed(check.skeleton.size());
     place(check.skeleton, rest_pose(check.skeleton), placed);
-    if (const FeetMotion* const whole = check.report.feet.get()) {
-        motion = {.treadmill = whole->treadmill,
-                  .always_slides = whole->always_slides,
-                  .rests_on_ground = whole->rests_on_ground,
-                  .has_soles = whole->has_soles,
-                  .floor = whole->floor};
-        for (const Foot& foot : whole->feet)
+    if (const KnownFeet& whole = check.report.feet; whole.are_known) {
+        motion = {.treadmill = whole.treadmill,
+                  .always_slides = whole.always_slides,
+                  .rests_on_ground = whole.rests_on_ground,
+                  .has_soles = whole.has_soles,
+                  .floor = whole.floor};
+        for (const KnownFeet::Foot& foot : whole.feet)
             motion.feet.push_back({.node = foot.node, .points = foot.points, .flat = foot.flat});
         sample_feet(check, placed, motion);
         for (Foot& foot : motion.feet) {
